@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/component.h"
+#include "core/schedule.h"
+#include "core/system.h"
+
+namespace stroma {
+
+// Advances the states of its node and of everything below it, down to the next integrator. SOFA calls
+// these "ODE solvers".
+class Integrator : public Component {
+ public:
+  static constexpr std::string_view role = "Integrator";
+
+  // Advances system() from step.time to step.time + step.dt.
+  virtual void integrate(const StepContext& step) = 0;
+  [[nodiscard]] System& system() const { return *system_; }
+  void setSystem(System* system) { system_ = system; }
+
+  void schedule(Schedule& schedule) override {
+    schedule.add<&Integrator::integrate>(Stage::Solve, *this, "integrate");
+  }
+
+ private:
+  System* system_ = nullptr;
+};
+
+}  // namespace stroma

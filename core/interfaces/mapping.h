@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/interfaces/mechanical_state.h"
+
+namespace stroma {
+
+struct StepContext;
+
+// A state whose positions follow linearly from another's: x_out = J x_in + c, v_out = J v_in, and forces
+// travel back by the exact transpose, f_in += J^T f_out.
+class Mapping : public Component {
+ public:
+  static constexpr std::string_view role = "Mapping";
+
+  Attribute<bool> visual{this, "visual", false,
+                         "The output is only looked at: it follows at the visual rate."};
+
+  [[nodiscard]] virtual MechanicalState& input() const = 0;
+  [[nodiscard]] virtual MechanicalState& output() const = 0;
+  virtual void apply(ConstVec3Span in, Vec3Span out) const = 0;
+  virtual void applyJ(ConstVec3Span in, Vec3Span out) const = 0;
+  virtual void addTransposed(ConstVec3Span out, Vec3Span in) const = 0;
+
+  void schedule(Schedule& schedule) override;
+
+ private:
+  void follow(const StepContext& step);
+};
+
+}  // namespace stroma

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/component.h"
+#include "core/types.h"
+
+namespace stroma {
+
+// Points and the elements between them. Spans are valid from bind() on.
+class Mesh : public Component {
+ public:
+  static constexpr std::string_view role = "Mesh";
+
+  [[nodiscard]] virtual ConstVec3Span positions() const = 0;
+  [[nodiscard]] virtual std::span<const Edge> edges() const { return {}; }
+  [[nodiscard]] virtual std::span<const Triangle> triangles() const { return {}; }
+  [[nodiscard]] virtual std::span<const Quad> quads() const { return {}; }
+  [[nodiscard]] virtual std::span<const Tetrahedron> tetrahedra() const { return {}; }
+  [[nodiscard]] virtual std::span<const Hexahedron> hexahedra() const { return {}; }
+};
+
+// The mesh of a node: its state takes positions from here, its force fields elements. A loader is only
+// a Mesh (several may be in one node); a topology is the node's own.
+class Topology : public Mesh {
+ public:
+  static constexpr std::string_view role = "Topology";
+
+  // Volume that each point stands for (m^3), empty where it has no meaning.
+  [[nodiscard]] virtual std::span<const double> volumes() const { return {}; }
+};
+
+}  // namespace stroma

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// An observer watches a run and changes nothing in it: monitors, exporters. The run's summary asks it for the
+// values it saw last and the files it wrote.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/component.h"
+
+namespace stroma {
+
+class Observer : public Component {
+ public:
+  static constexpr std::string_view role = "Observer";
+
+  // Named values as they were last seen, in SI units.
+  [[nodiscard]] virtual std::vector<std::pair<std::string, double>> lastValues() const { return {}; }
+  // Files written so far.
+  [[nodiscard]] virtual std::vector<std::filesystem::path> files() const { return {}; }
+};
+
+}  // namespace stroma
