@@ -18,6 +18,7 @@ class Scene;
 class Schedule;
 class StateReader;
 class StateWriter;
+struct StepContext;
 
 // Counts how often a limiter acted (an iteration cap, a force clamp, ...). Limiters that acted are named
 // in the run's summary: nothing is limited silently.

@@ -84,6 +84,12 @@ JsonWriter& JsonWriter::null() {
   return *this;
 }
 
+JsonWriter& JsonWriter::raw(std::string_view json) {
+  separate();
+  text_ += json;
+  return *this;
+}
+
 JsonWriter& JsonWriter::writeSigned(std::int64_t number) {
   separate();
   appendNumber(text_, number);

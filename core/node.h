@@ -24,6 +24,10 @@ class Node final : public AttributeOwner {
                           "Acceleration of gravity; nodes without a value of their own inherit it. "
                           "It acts on particles that have a mass.",
                           {.unit = "m/s^2"}};
+  Attribute<double> duration{this, "duration", 1.0,
+                             "Simulated time that `stroma run` makes unless told otherwise (read from "
+                             "the root node).",
+                             {.unit = "s", .min = 0.0}};
   Attribute<double> time{this, "time", 0.0, "Time at which the simulation starts.", {.unit = "s"}};
   Attribute<bool> animate{this, "animate", false, "Whether an interactive session starts running."};
   Attribute<bool> activated{this, "activated", true, "A node that is not activated is left out."};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/parallel.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -10,13 +11,19 @@ namespace stroma {
 namespace {
 
 int threads = 1;
+std::unique_ptr<tbb::global_control> limit;  // more threads than cores when asked for
 std::unique_ptr<tbb::task_arena> arena;
 
 }  // namespace
 
 void setThreadCount(int count) {
   threads = std::max(1, count);
-  arena = threads > 1 ? std::make_unique<tbb::task_arena>(threads) : nullptr;
+  arena.reset();
+  limit.reset();
+  if (threads == 1) return;
+  limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                static_cast<std::size_t>(threads));
+  arena = std::make_unique<tbb::task_arena>(threads);
 }
 
 int threadCount() { return threads; }

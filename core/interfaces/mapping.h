@@ -5,8 +5,6 @@
 
 namespace stroma {
 
-struct StepContext;
-
 // A state whose positions follow linearly from another's: x_out = J x_in + c, v_out = J v_in, and forces
 // travel back by the exact transpose, f_in += J^T f_out.
 class Mapping : public Component {

@@ -19,6 +19,12 @@ class Mesh : public Component {
   [[nodiscard]] virtual std::span<const Hexahedron> hexahedra() const { return {}; }
 };
 
+// A triangle surface somebody else owns.
+struct SurfaceView {
+  ConstVec3Span positions;
+  std::span<const Triangle> triangles;
+};
+
 // The mesh of a node: its state takes positions from here, its force fields elements. A loader is only
 // a Mesh (several may be in one node); a topology is the node's own.
 class Topology : public Mesh {
@@ -27,6 +33,8 @@ class Topology : public Mesh {
 
   // Volume that each point stands for (m^3), empty where it has no meaning.
   [[nodiscard]] virtual std::span<const double> volumes() const { return {}; }
+  // Closed surface of the solid that the points fill, outward oriented; empty where there is none.
+  [[nodiscard]] virtual SurfaceView enclosingSurface() const { return {}; }
 };
 
 }  // namespace stroma
