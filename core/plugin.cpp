@@ -43,11 +43,9 @@ const PluginDescriptor* loadPlugin(const fs::path& library, std::string& problem
   if (const auto known = open.find(path); known != open.end()) return known->second;
 
   boost::dll::fs::error_code failure;
-  // never unloaded: the object is leaked on purpose
-  auto* handle = new boost::dll::shared_library(
+  auto handle = std::make_unique<boost::dll::shared_library>(
       path.string(), boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local, failure);
   if (failure) {
-    delete handle;
     problem = "cannot load '" + path.string() + "': " + failure.message();
     return nullptr;
   }
@@ -64,6 +62,9 @@ const PluginDescriptor* loadPlugin(const fs::path& library, std::string& problem
   problem = mismatch(descriptor.name, descriptor.abi, descriptor.buildId);
   if (!problem.empty()) return nullptr;
   open[path] = &descriptor;
+  // never unloaded, not even at exit: components may outlive everything static here
+  static auto& handles = *new std::vector<std::unique_ptr<boost::dll::shared_library>>;
+  handles.push_back(std::move(handle));
   return &descriptor;
 }
 

@@ -22,16 +22,6 @@ std::vector<std::string> words(const std::string& text) {
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-// "Name", "Name2", ... whichever is free in the node.
-std::string freeName(const Node& node, const std::string& type) {
-  const auto taken = [&](const std::string& name) {
-    return std::ranges::any_of(node.components(), [&](const auto& c) { return c->name() == name; });
-  };
-  std::string name = type;
-  for (int n = 2; taken(name); ++n) name = type + std::to_string(n);
-  return name;
-}
-
 // Part of an attribute's text, as a place in the file.
 SourceRange within(const SourceRange& whole, const ParseError& error) {
   SourceRange range = whole;
@@ -47,6 +37,19 @@ bool truthy(const std::string& text) {
 }
 
 }  // namespace
+
+// "Name", "Name2", ... whichever is free in the node.
+std::string SceneReader::freeName(const Node& node, const std::string& type) {
+  const auto taken = [&](const std::string& name) {
+    return std::ranges::any_of(node.components(), [&](const auto& c) { return c->name() == name; });
+  };
+  int& number = named_[{&node, type}];  // goes on where the last of the type stopped
+  std::string name;
+  do {
+    name = ++number == 1 ? type : type + std::to_string(number);
+  } while (taken(name));
+  return name;
+}
 
 void SceneReader::strict(std::string id, std::string message, SourceRange at, std::string hint) {
   diagnostics_.report({scene_.options().lenient ? Severity::warning : Severity::error,
@@ -133,9 +136,9 @@ const ComponentEntry* SceneReader::findType(std::string_view tag, const SceneEle
     if (const ComponentEntry* entry = scene_.registry().find(name)) return entry;
   }
   if (!sofa::isIgnoredElement(name)) {
-    const auto names = scene_.modules().componentNames();
-    strict("type-unknown", "unknown component '" + std::string(tag) + "'", element.at,
-           didYouMean(name, names));
+    std::string hint = didYouMean(name, scene_.modules().componentNames());
+    if (hint.empty()) hint = "`stroma components` lists those that the modules found here have";
+    strict("type-unknown", "unknown component " + quoted(tag), element.at, std::move(hint));
   }
   return nullptr;
 }

@@ -3,6 +3,7 @@
 // resolves links. All problems of a scene are reported in one pass.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,7 @@ class SceneReader {
   void resolveExplicit(Component& component, LinkBase& link);
   void resolveImplicit(Component& component, LinkBase& link);
   void resolvePending(const PendingLink& pending);
+  [[nodiscard]] std::string freeName(const Node& node, const std::string& type);
   // All components that could play the role of the link, for messages.
   [[nodiscard]] std::string candidates(const LinkBase& link, const Component& self);
   // Unknown elements and attributes: errors, or warnings in lenient mode.
@@ -50,6 +52,7 @@ class SceneReader {
   Scene& scene_;
   Diagnostics& diagnostics_;
   std::vector<PendingLink> pending_;
+  std::map<std::pair<const Node*, std::string>, int> named_;  // names given to a type in a node
 };
 
 }  // namespace stroma

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <fstream>
 
+#include "core/xml_problem.h"
+
 namespace stroma {
 namespace fs = std::filesystem;
 namespace {
@@ -69,9 +71,15 @@ void convert(const tinyxml2::XMLElement& from, const Locator& locator, Diagnosti
     if (const auto* element = child->ToElement()) {
       convert(*element, locator, diagnostics, to.children.emplace_back());
     } else if (const auto* text = child->ToText(); text && !text->CData()) {
+      const std::string_view value = text->Value();
+      const std::size_t begin = value.find_first_not_of(" \t\r\n");
+      if (begin == std::string_view::npos) continue;
+      const std::size_t length = value.find_last_not_of(" \t\r\n") + 1 - begin;
+      SourceRange at = locator.at(text->Value(), text->GetLineNum());
+      at.offset += begin;
+      at.length = length;
       diagnostics.error("xml-text", "text between elements has no meaning here: " +
-                                        quoted(text->Value()),
-                        locator.at(text->Value(), text->GetLineNum()));
+                                        quoted(value.substr(begin, length)), at);
     }
   }
 }
@@ -80,24 +88,18 @@ void convert(const tinyxml2::XMLElement& from, const Locator& locator, Diagnosti
 void reportSyntax(const tinyxml2::XMLDocument& document,
                   const std::shared_ptr<const SourceText>& source, Diagnostics& diagnostics) {
   using namespace tinyxml2;
-  std::string message;
-  switch (document.ErrorID()) {
-    case XML_ERROR_EMPTY_DOCUMENT: message = "the file has no elements"; break;
-    case XML_ERROR_MISMATCHED_ELEMENT:
-      message = "an element is closed by another name, or not closed";
-      break;
-    case XML_ERROR_PARSING_ATTRIBUTE:
-      message = "malformed or repeated attribute in this element";
-      break;
-    case XML_ERROR_PARSING_ELEMENT: message = "malformed element"; break;
-    case XML_ERROR_PARSING_COMMENT: message = "a comment is not closed by -->"; break;
-    case XML_ERROR_PARSING_CDATA: message = "a CDATA section is not closed by ]]>"; break;
-    case XML_ERROR_PARSING_DECLARATION: message = "the XML declaration is malformed or misplaced"; break;
-    case XML_ERROR_PARSING_TEXT: message = "malformed text"; break;
-    case XML_ERROR_PARSING_UNKNOWN: message = "malformed <! ... > section"; break;
-    case XML_ELEMENT_DEPTH_EXCEEDED: message = "elements are nested too deeply"; break;
-    default: message = "not well-formed XML"; break;
+  const XMLError kind = document.ErrorID();
+  if (kind == XML_ERROR_EMPTY_DOCUMENT) {
+    diagnostics.error("xml-syntax", "the file has no elements", {source, 0, 1});
+    return;
   }
+  const bool deep = kind == XML_ELEMENT_DEPTH_EXCEEDED;
+  if (const auto problem = deep ? std::nullopt : findXmlProblem(*source)) {
+    diagnostics.error("xml-syntax", problem->message, {source, problem->offset, problem->length},
+                      problem->hint);
+    return;
+  }
+  const std::string message = deep ? "elements are nested too deeply" : "not well-formed XML";
   const int line = std::clamp(document.ErrorLineNum(), 1, std::max(1, source->lineCount()));
   const std::string_view text = source->line(line);
   std::size_t offset = static_cast<std::size_t>(text.data() - source->text().data());
@@ -242,7 +244,8 @@ std::optional<SceneElement> parseSceneText(std::shared_ptr<const SourceText> sou
     diagnostics.error("xml-two-roots",
                       "a scene has one root element; '" + std::string(second->Value()) +
                           "' is a second one",
-                      locator.at(second->Value(), second->GetLineNum()));
+                      locator.at(second->Value(), second->GetLineNum()),
+                      "put both into one Node");
     good = false;
   }
   SceneElement element;

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <iterator>
-#include <iterator>
 #include <sstream>
 
 #include "core/interfaces/animation_loop.h"

@@ -21,6 +21,8 @@ class Observer : public Component {
   [[nodiscard]] virtual std::vector<std::pair<std::string, double>> lastValues() const { return {}; }
   // Files written so far.
   [[nodiscard]] virtual std::vector<std::filesystem::path> files() const { return {}; }
+  // Why output is missing (a full disk, ...), empty when all was written.
+  [[nodiscard]] virtual std::string trouble() const { return {}; }
 };
 
 }  // namespace stroma

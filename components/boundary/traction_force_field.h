@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "components/boundary/surface_triangles.h"
+#include "core/interfaces/force_field.h"
+
+namespace stroma {
+
+// Force per area of the surface at rest (a dead load: it keeps its size and direction). Either one
+// `traction` for all triangles, or traction = `stress` N with N the triangle's outward normal at
+// rest and `stress` the first Piola-Kirchhoff stress, given as xx yy zz xy yz zx; on the whole
+// surface of a body this is the load of a uniform stress. A third of each triangle's force goes to
+// each of its nodes.
+class TractionForceField final : public ForceField {
+ public:
+  Attribute<Vec3> traction{this,
+                           "traction",
+                           Vec3::Zero(),
+                           "Force per area.",
+                           {.unit = "Pa", .aliases = "surfaceTraction"}};
+  Attribute<std::vector<double>> stress{
+      this,
+      "stress",
+      {},
+      "Symmetric stress xx yy zz xy yz zx, instead of a traction.",
+      {.unit = "Pa"}};
+  Attribute<double> rampTime{this,
+                             "rampTime",
+                             0.0,
+                             "The load rises smoothly from zero at time 0 to its value at this "
+                             "time; 0 = at once.",
+                             {.unit = "s", .min = 0}};
+  Attribute<double> scale{this, "scale", 1.0, "Factor of the load.", {.runtime = true}};
+  Attribute<std::vector<Triangle>> triangles{
+      this, "triangles", {}, "Triangles acted on; the topology's if not given."};
+  Attribute<IndexList> triangleIndices{
+      this,
+      "triangleIndices",
+      {},
+      "Numbers of the triangles that are acted on, of those above; "
+      "all if not given.",
+      {.aliases = "triangleList"}};
+  Link<MechanicalState> mechanicalState{
+      this, "state", "Nodes of the surface.", Lookup::nearest, {.aliases = "mstate"}};
+  Link<Topology> topology{
+      this, "topology", "Where the triangles come from.", Lookup::nearest, {.required = false}};
+
+  void configure() override;
+  void bind() override;
+  [[nodiscard]] MechanicalState& state() const override { return *mechanicalState; }
+  void addForce(const StateView& at, Vec3Span f) override;
+  [[nodiscard]] double potentialEnergy(const StateView& at) const override;
+  void linearize(const StateView&) override {}
+  void addTangentProduct(ConstVec3Span, double, double, Vec3Span) const override {}
+  [[nodiscard]] bool addPattern(BlockPattern&, Index) const override { return true; }
+
+ private:
+  [[nodiscard]] double factorAt(double time) const;
+  SurfaceTriangles surface_;
+  std::vector<Vec3> force_;  // full force on each loaded node
+};
+
+}  // namespace stroma

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "components/io/mesh_loader.h"
+
+#include <numbers>
+
+#include "components/io/mesh_check.h"
+#include "core/scene.h"
+
+namespace stroma {
+
+void MeshLoader::transform(MeshData& mesh) const {
+  const Vec3 angle = *rotation * (std::numbers::pi / 180);
+  const Mat3 turn =
+      (Eigen::AngleAxisd(angle.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(angle.y(), Vec3::UnitY()) *
+       Eigen::AngleAxisd(angle.x(), Vec3::UnitX()))
+          .toRotationMatrix();
+  const Vec3 stretch = *scale * *scale3d;
+  for (Vec3& x : mesh.positions) x = turn * stretch.cwiseProduct(x) + *translation;
+  for (Vec3& n : mesh.normals) n = (turn * n.cwiseQuotient(stretch)).normalized();
+  // a reflection turns the faces over: turn them back
+  if (*flipNormals == (stretch.prod() > 0)) {
+    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    for (Quad& q : mesh.quads) std::swap(q[1], q[3]);
+  }
+  if (flipNormals) {
+    for (Vec3& n : mesh.normals) n = -n;
+  }
+}
+
+void MeshLoader::bind() {
+  if (scale3d->cwiseAbs().minCoeff() == 0) {
+    error(scale3d, "value-range", "has a zero: the mesh would be flat");
+    return;
+  }
+  const auto file = scene().findInput(*this, filename);
+  if (!file) return;
+  MeshData mesh = readMesh(*file, format_, triangulate);
+  for (const MeshProblem& problem : mesh.problems) {
+    const std::string line = problem.line > 0 ? ":" + std::to_string(problem.line) : "";
+    error(filename, "mesh-read", file->string() + line + ": " + problem.message);
+  }
+  if (failed()) return;
+  for (const MeshRemark& remark : checkMesh(mesh)) {
+    const std::string message = file->string() + ": " + remark.message;
+    remark.unusable ? error(filename, remark.id, message) : warning(remark.id, message);
+  }
+  if (failed()) return;
+  transform(mesh);
+  const std::string size = sizeRemark(mesh.positions);
+  if (!size.empty()) {
+    warning("mesh-size", file->string() + ": " + size,
+            "positions are metres; scale=\"0.001\" reads a mesh in millimetres");
+  }
+  publish(std::move(mesh));
+}
+
+void MeshLoader::publish(MeshData mesh) {
+  groups_ = std::move(mesh.groups);
+  std::vector<std::string> names;
+  for (const MeshGroup& group : groups_) names.push_back(group.name);
+  groupNames.set(std::move(names));
+  position.set(std::move(mesh.positions));
+  edgeList.set(std::move(mesh.edges));
+  triangleList.set(std::move(mesh.triangles));
+  quadList.set(std::move(mesh.quads));
+  normals.set(std::move(mesh.normals));
+  texcoords.set(std::move(mesh.texcoords));
+}
+
+}  // namespace stroma

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "components/mechanics/mls_force_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "components/material/hooke_cauchy.h"
+#include "components/material/hooke_corotated.h"
+#include "components/material/hooke_green.h"
+#include "components/material/stable_neo_hookean.h"
+#include "components/mechanics/mls_elasticity.h"
+#include "components/mechanics/surface_quadrature.h"
+#include "core/schedule.h"
+
+namespace stroma {
+
+class MLSForceField::Law {
+ public:
+  virtual ~Law() = default;
+  virtual void addForces(ConstVec3Span x, Vec3Span f) = 0;
+  virtual double energy(ConstVec3Span x) = 0;
+  virtual void prepareTangent(ConstVec3Span x, Definiteness definiteness) = 0;
+  virtual void addStiffnessProduct(double factor, ConstVec3Span dx, Vec3Span df) = 0;
+  virtual void addTangent(BlockMatrix& matrix, Index offset, double factor) const = 0;
+  virtual void stress(ConstVec3Span x, std::vector<double>& vonMises,
+                      std::vector<double>& volumeRatio) = 0;
+};
+
+template <class Material>
+class MLSForceField::LawOf final : public Law {
+ public:
+  LawOf(const Material& material, const MlsBonds& bonds) : elasticity_(material, bonds) {}
+  void addForces(ConstVec3Span x, Vec3Span f) override { elasticity_.addForces(x, f); }
+  double energy(ConstVec3Span x) override { return elasticity_.energy(x); }
+  void prepareTangent(ConstVec3Span x, Definiteness definiteness) override {
+    elasticity_.prepareTangent(x, definiteness);
+  }
+  void addStiffnessProduct(double factor, ConstVec3Span dx, Vec3Span df) override {
+    elasticity_.addStiffnessProduct(factor, dx, df);
+  }
+  void addTangent(BlockMatrix& matrix, Index offset, double factor) const override {
+    elasticity_.assembleStiffness([&](Index row, Index column, const Mat3& block) {
+      matrix.add(offset + row, offset + column, factor * block);
+    });
+  }
+  void stress(ConstVec3Span x, std::vector<double>& vonMises,
+              std::vector<double>& volumeRatio) override {
+    F_.resize(x.size());
+    vonMises.resize(x.size());
+    volumeRatio.resize(x.size());
+    elasticity_.deformation(x, F_);
+    parallelFor(static_cast<Index>(x.size()), [&](Index k) {
+      const auto i = static_cast<std::size_t>(k);
+      const double J = F_[i].determinant();
+      // Cauchy stress P F^T / J; a collapsed particle has none
+      const Mat3 sigma = std::abs(J) > 1e-12
+                             ? Mat3(elasticity_.material().stress(F_[i]) * F_[i].transpose() / J)
+                             : Mat3(Mat3::Zero());
+      const Mat3 deviator = sigma - sigma.trace() / 3 * Mat3::Identity();
+      vonMises[i] = std::sqrt(1.5) * deviator.norm();
+      volumeRatio[i] = J;
+    });
+  }
+
+ private:
+  MlsElasticity<Material> elasticity_;
+  std::vector<Mat3> F_;
+};
+
+MLSForceField::MLSForceField() = default;
+MLSForceField::~MLSForceField() = default;
+
+void MLSForceField::configure() {
+  if (material == MaterialLaw::stableNeoHookean && strain.isSet()) {
+    error(strain, "strain-unused",
+          "has no meaning for material=\"stableNeoHookean\", which has its "
+          "own strain",
+          "remove it, or use material=\"hooke\"");
+  }
+  if (supportRadius.isSet() && supportCount.isSet()) {
+    error(supportRadius, "support-twice",
+          "and 'supportCount' are both given: a support has one size");
+  }
+}
+
+bool MLSForceField::readVolumes() {
+  volumes_ = volume;
+  if (volumes_.empty() && topology) {
+    volumes_.assign(topology->volumes().begin(), topology->volumes().end());
+  }
+  const auto particles = static_cast<std::size_t>(mechanicalState->size());
+  if (volumes_.size() != particles) {
+    error("mls-volume",
+          "knows " + std::to_string(volumes_.size()) + " volumes for " + std::to_string(particles) +
+              " particles",
+          "volumes come from a ParticleSampler, a RegularGridTopology or 'volume'");
+    return false;
+  }
+  const auto bad = std::ranges::find_if(volumes_, [](double v) { return !(v > 0); });
+  if (bad != volumes_.end()) {
+    error("mls-volume", "particle " + std::to_string(bad - volumes_.begin()) + " has no volume");
+    return false;
+  }
+  return true;
+}
+
+bool MLSForceField::findSupports() {
+  SupportOptions options;
+  options.shape = supportShape;
+  options.kernel = kernel;
+  options.count = supportRadius.isSet() ? 0 : *supportCount;
+  options.radius = supportRadius;
+  options.reach = supportReach;
+  std::vector<EllipsoidAxes> axes;
+  const ConstVec3Span X = mechanicalState->rest();
+  if (options.shape == SupportShape::ellipsoid) {
+    if (normal->size() != X.size() || !(spacing > 0.0) || !(layerSpacing > 0.0)) {
+      error(supportShape, "support-axes",
+            "=\"ellipsoid\" needs 'normal' (one a particle), 'spacing' and "
+            "'layerSpacing'",
+            "src=\"@sampler\" takes them from a ParticleSampler of layout=\"shell\"");
+      return false;
+    }
+    for (const Vec3& n : *normal) axes.push_back({n.normalized(), spacing, layerSpacing});
+    // a radius is written in metres, ellipsoids measure in spacings
+    if (options.count == 0) options.radius /= *spacing;
+  }
+  neighbourhoods_ = findNeighbourhoods(X, options, axes);
+  gradients_ = computeGradients(X, neighbourhoods_);
+  transposed_ = transpose(neighbourhoods_);
+  return true;
+}
+
+void MLSForceField::makeGradientsConsistent() {
+  const SurfaceView closed = surface    ? SurfaceView{surface->positions(), surface->triangles()}
+                             : topology ? topology->enclosingSurface()
+                                        : SurfaceView{};
+  if (closed.triangles.empty()) {
+    error(gradient, "gradient-surface",
+          "=\"consistent\" needs the closed surface around the particles",
+          "use a ParticleSampler, or give surface=\"@mesh\"");
+    return;
+  }
+  plainGradients_ = gradients_;
+  // loads on the surface's nodes travel through the same shape functions: tractions are then exact
+  const SurfaceShape shape = shapeOf(closed.positions, surfaceSupport);
+  std::vector<Vec3> areas(closed.positions.size(), Vec3::Zero());
+  for (const Triangle& t : closed.triangles) {
+    const auto& p = closed.positions;
+    const Vec3 area =
+        0.5 * (p[static_cast<std::size_t>(t[1])] - p[static_cast<std::size_t>(t[0])])
+                  .cross(p[static_cast<std::size_t>(t[2])] - p[static_cast<std::size_t>(t[0])]);
+    for (const Index node : t) areas[static_cast<std::size_t>(node)] += area / 3;
+  }
+  std::vector<Vec3> boundary(mechanicalState->rest().size(), Vec3::Zero());
+  shape.addTransposed(areas, boundary);
+  ProjectionOptions options;
+  options.iterations = projectionIterations;
+  options.exact = projectionIterations == 0;
+  try {
+    projection_ = makeConsistent(mechanicalState->rest(), neighbourhoods_, transposed_, volumes_,
+                                 boundary, gradients_, options);
+  } catch (const std::runtime_error& e) {
+    error(gradient, "gradient-projection", std::string("cannot be made consistent: ") + e.what());
+    return;
+  }
+  if (projection_->volumeMismatch > 1e-6) {
+    warning("gradient-volume", "the particles' volumes differ from the volume of the surface by " +
+                                   ValueTraits<double>::print(100 * projection_->volumeMismatch) +
+                                   " %: the consistent gradient cannot be exact");
+  }
+}
+
+void MLSForceField::reportRanks() {
+  const RankReport& r = gradients_.report;
+  if (r.coplanar + r.colinear + r.isolated == 0) return;
+  warning("mls-rank", "degenerate neighbourhoods: " + std::to_string(r.coplanar) + " coplanar, " +
+                          std::to_string(r.colinear) + " colinear, " + std::to_string(r.isolated) +
+                          " isolated of " + std::to_string(mechanicalState->size()) +
+                          " particles; they resist only in the directions their neighbours span");
+}
+
+void MLSForceField::buildBonds() {
+  law_.reset();
+  bonds_ = std::make_unique<MlsBonds>(mechanicalState->rest(), neighbourhoods_, transposed_,
+                                      gradients_, volumes_, *zeroEnergyControl * *youngModulus);
+  law_ = makeLaw();
+}
+
+void MLSForceField::bind() {
+  if (!readVolumes() || !findSupports()) return;
+  if (gradient == GradientScheme::consistent) makeGradientsConsistent();
+  if (failed()) return;
+  reportRanks();
+  buildBonds();
+}
+
+std::unique_ptr<MLSForceField::Law> MLSForceField::makeLaw() const {
+  const double E = youngModulus, nu = poissonRatio;
+  if (material == MaterialLaw::stableNeoHookean) {
+    return std::make_unique<LawOf<StableNeoHookean>>(StableNeoHookean(E, nu), *bonds_);
+  }
+  if (strain == StrainMeasure::cauchy) {
+    return std::make_unique<LawOf<HookeCauchy>>(HookeCauchy(E, nu), *bonds_);
+  }
+  if (strain == StrainMeasure::green) {
+    return std::make_unique<LawOf<HookeGreen>>(HookeGreen(E, nu), *bonds_);
+  }
+  return std::make_unique<LawOf<HookeCorotated>>(HookeCorotated(E, nu), *bonds_);
+}
+
+void MLSForceField::schedule(Schedule& schedule) {
+  if (*computeVonMises) {
+    schedule.add<&MLSForceField::publishStress>(Stage::Publish, *this, "stress", Rate::visual);
+  }
+}
+
+void MLSForceField::publishStress(const StepContext&) {
+  std::vector<double> stress, ratio;
+  law_->stress(mechanicalState->x(), stress, ratio);
+  vonMises.set(std::move(stress));
+  volumeRatio.set(std::move(ratio));
+}
+
+void MLSForceField::attributeChanged(const AttributeBase& attribute) {
+  if (&attribute == &youngModulus || &attribute == &poissonRatio) buildBonds();
+}
+
+void MLSForceField::addForce(const StateView& at, Vec3Span f) { law_->addForces(at.x, f); }
+
+double MLSForceField::potentialEnergy(const StateView& at) const { return law_->energy(at.x); }
+
+void MLSForceField::linearize(const StateView& at) {
+  law_->prepareTangent(
+      at.x, tangent == TangentKind::exact ? Definiteness::exact : Definiteness::filtered);
+}
+
+void MLSForceField::addTangentProduct(ConstVec3Span dx, double stiffness, double /*damping*/,
+                                      Vec3Span df) const {
+  // df/dx = -K; there is no dependence on velocity
+  if (stiffness != 0) law_->addStiffnessProduct(-stiffness, dx, df);
+}
+
+bool MLSForceField::addPattern(BlockPattern& pattern, Index offset) const {
+  std::vector<Index> clique;
+  for (Index i = 0; i < bonds_->particleCount(); ++i) {
+    clique.assign(1, offset + i);
+    for (const Index j : neighbourhoods_.neighboursOf(i)) clique.push_back(offset + j);
+    pattern.addClique(clique);
+  }
+  return true;
+}
+
+void MLSForceField::addTangent(BlockMatrix& matrix, Index offset, double stiffness,
+                               double /*damping*/) const {
+  law_->addTangent(matrix, offset, -stiffness);
+}
+
+SurfaceShape MLSForceField::shapeOf(ConstVec3Span points, Index supports) const {
+  return SurfaceShape(mechanicalState->rest(), neighbourhoods_,
+                      plainGradients_.values.empty() ? gradients_ : plainGradients_, points,
+                      supports);
+}
+
+}  // namespace stroma

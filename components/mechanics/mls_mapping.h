@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "components/mechanics/mls_force_field.h"
+#include "core/interfaces/mapping.h"
+
+namespace stroma {
+
+// Surface nodes that ride on particles: x_s = sum_i w_si [x_i + F_i (X_s - X_i)], the Shepard blend
+// over the nearest particles of their first-order extrapolations. Linear fields are followed
+// exactly; forces on the nodes go back to the particles by the exact transpose. With the force
+// field's own number of supports these are the shape functions of the consistent gradient's
+// boundary term, so that tractions are exact.
+class MLSMapping final : public Mapping {
+ public:
+  Attribute<int> supportCount{
+      this,
+      "supportCount",
+      0,
+      "Particles that carry a node; 0 takes the force field's surfaceSupport.",
+      {.min = 0}};
+  Link<MechanicalState> in{this, "input", "Particles.", Lookup::parent};
+  Link<MechanicalState> out{this, "output", "Surface nodes.", Lookup::sameNode};
+  Link<MLSForceField> forceField{this, "forceField",
+                                 "Force field of the particles, which knows their "
+                                 "neighbourhoods.",
+                                 Lookup::nearest};
+
+  void bind() override;
+  [[nodiscard]] MechanicalState& input() const override { return *in; }
+  [[nodiscard]] MechanicalState& output() const override { return *out; }
+  void apply(ConstVec3Span particles, Vec3Span points) const override;
+  void applyJ(ConstVec3Span particles, Vec3Span points) const override;
+  void addTransposed(ConstVec3Span points, Vec3Span particles) const override;
+
+  [[nodiscard]] const SurfaceShape& shape() const { return shape_; }
+
+ private:
+  SurfaceShape shape_;
+};
+
+}  // namespace stroma

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "components/solver/euler_explicit_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/solver/start_checks.h"
+#include "core/parallel.h"
+#include "core/scene.h"
+
+namespace stroma {
+namespace {
+
+// Estimates approach the eigenvalue from below, and tissue stiffens between them.
+constexpr double safety = 0.9;
+
+}  // namespace
+
+void EulerExplicitSolver::start() {
+  System& s = system();
+  requireMasses(*this, s);
+  if (failed()) return;
+  heldForce_.resize(s.projectors().size());
+  s.project(s.v());
+  const double dt = scene().dt();
+  estimate(scene().time(), dt);
+  if (substeps > 0 && dt / substeps > stableStep) {
+    warning("substeps-unstable",
+            "sub-steps of " + std::to_string(dt / substeps) +
+                " s are longer than the largest stable "
+                "one, about " +
+                std::to_string(stableStep.value()) + " s",
+            "leave 'substeps' out, or give at least " +
+                std::to_string(static_cast<int>(std::ceil(dt / (safety * stableStep)))));
+  }
+}
+
+void EulerExplicitSolver::reset() {
+  stability_.forget();
+  substepChanges.set(0);
+  system().project(system().v());
+  estimate(scene().time(), scene().dt());
+}
+
+void EulerExplicitSolver::estimate(double time, double dt) {
+  System& s = system();
+  s.linearize({s.x(), s.v(), time});
+  stability_.update(s, rayleighMass, rayleighStiffness);
+  stableStep.set(std::min(stability_.largestStep(), 1e30));
+  if (substeps > 0) {
+    currentSubsteps.set(substeps);
+    return;
+  }
+  const double wanted = std::max(1.0, std::ceil(dt / (safety * stableStep)));
+  if (wanted > maxSubsteps) ++capped_;
+  currentSubsteps.set(static_cast<int>(std::min<double>(wanted, maxSubsteps)));
+}
+
+void EulerExplicitSolver::integrate(const StepContext& step) {
+  if (substeps == 0 && step.step > 1 &&
+      (step.step - 1) % static_cast<std::uint64_t>(estimateEvery) == 0) {
+    const int before = currentSubsteps;
+    estimate(step.time, step.dt);
+    if (currentSubsteps != before) substepChanges.set(substepChanges + 1);
+  }
+  const double h = step.dt / currentSubsteps;
+  for (int k = 0; k < currentSubsteps; ++k) substep(step.time + k * h, h);
+}
+
+void EulerExplicitSolver::substep(double time, double h) {
+  System& s = system();
+  const Vec3Span x = s.x(), v = s.v(), f = s.f();
+  s.computeForce({x, v, time}, f);
+  if (rayleighStiffness > 0) {
+    s.linearize({x, v, time});
+    s.addTangentProduct(v, rayleighStiffness, 0, f);
+  }
+  const auto& held = s.projectors();
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    Vec3& own = f[static_cast<std::size_t>(held[k].particle)];
+    heldForce_[k] = own;
+    own = held[k].projector * own;
+  }
+  const double* inverseMass = s.inverseMass().data();
+  const double keep = 1 - h * rayleighMass;
+  const auto update = [&](auto move) {
+    parallelFor(s.size(), [&](Index n) {
+      const auto i = static_cast<std::size_t>(n);
+      const Vec3 next = keep * v[i] + (h * inverseMass[i]) * f[i];
+      x[i] += h * move(v[i], next);
+      v[i] = next;
+    });
+  };
+  if (symplectic) {
+    update([](const Vec3&, const Vec3& next) -> const Vec3& { return next; });
+  } else {
+    update([](const Vec3& last, const Vec3&) -> const Vec3& { return last; });
+  }
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    f[static_cast<std::size_t>(held[k].particle)] = heldForce_[k];
+  }
+}
+
+void EulerExplicitSolver::save(StateWriter& writer) const {
+  writer.write("currentSubsteps", currentSubsteps.value());
+  writer.write("substepChanges", substepChanges.value());
+  writer.write("stableStep", stableStep.value());
+  stability_.save(writer);
+}
+
+void EulerExplicitSolver::restore(StateReader& reader) {
+  int count = 1, changes = 0;
+  double stable = 0;
+  if (reader.read("currentSubsteps", count)) currentSubsteps.set(count);
+  if (reader.read("substepChanges", changes)) substepChanges.set(changes);
+  if (reader.read("stableStep", stable)) stableStep.set(stable);
+  stability_.restore(reader);
+}
+
+}  // namespace stroma

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "components/solver/stability_estimate.h"
+#include "core/interfaces/integrator.h"
+
+namespace stroma {
+
+// Explicit Euler. Symplectic as in SOFA unless told otherwise: v += h M^-1 f(x, v), then x += h v
+// with the new velocity (first order, and the same orbit as leapfrog with v half a step away).
+// Rayleigh damping adds the force -rayleighMass M v + rayleighStiffness K v.
+//
+// A step is made in sub-steps of at most 0.9 times the largest stable one. That is estimated at the
+// start and every `estimateEvery` steps, so that the number of sub-steps follows stiffening tissue;
+// `substeps` shows it. Forces shown or written are those at the beginning of the last sub-step.
+class EulerExplicitSolver final : public Integrator {
+ public:
+  Attribute<bool> symplectic{this, "symplectic", true,
+                             "Moves with the new velocity; false moves with the old one."};
+  Attribute<double> rayleighStiffness{this,
+                                      "rayleighStiffness",
+                                      0.0,
+                                      "Damping by this times the stiffness matrix.",
+                                      {.unit = "s", .min = 0}};
+  Attribute<double> rayleighMass{
+      this, "rayleighMass", 0.0, "Damping by this times the masses.", {.unit = "1/s", .min = 0}};
+  Attribute<int> substeps{
+      this, "substeps", 0, "Sub-steps of a step; 0 = from the estimate of stability.", {.min = 0}};
+  Attribute<int> maxSubsteps{
+      this, "maxSubsteps", 10000, "Most sub-steps that the estimate may ask for.", {.min = 1}};
+  Attribute<int> estimateEvery{
+      this, "estimateEvery", 20, "Steps between estimates of stability.", {.min = 1}};
+  Attribute<int> currentSubsteps{
+      this, "currentSubsteps", 1, "Sub-steps of the last step.", {.output = true}};
+  Attribute<double> stableStep{this,
+                               "stableStep",
+                               0.0,
+                               "Largest stable sub-step by the last estimate.",
+                               {.unit = "s", .output = true}};
+  Attribute<int> substepChanges{this,
+                                "substepChanges",
+                                0,
+                                "How often the number of sub-steps has changed.",
+                                {.output = true}};
+
+  void start() override;
+  void reset() override;
+  void save(StateWriter& writer) const override;
+  void restore(StateReader& reader) override;
+  void integrate(const StepContext& step) override;
+
+ private:
+  void estimate(double time, double dt);
+  void substep(double time, double h);
+
+  Limiter capped_{this, "maxSubsteps",
+                  "estimates that asked for more than `maxSubsteps` sub-steps"};
+  StabilityEstimate stability_;
+  std::vector<Vec3> heldForce_;  // forces on held particles, put back after the update
+};
+
+}  // namespace stroma

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "components/solver/sparse_ldl_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/scene.h"
+#include "core/snapshot.h"
+#include "core/traverse.h"
+
+namespace stroma {
+
+void SparseLDLSolver::start() {
+  int users = 0;
+  forEachComponent(scene().root(), [&](Component& c) {
+    for (const LinkBase* link : c.links()) {
+      users += static_cast<int>(std::ranges::count(link->components(), this));
+    }
+  });
+  if (users > 1) {
+    error("solver-shared", "is used by " + std::to_string(users) + " solvers",
+          "its factor belongs to one system: give each solver its own");
+  }
+}
+
+void SparseLDLSolver::reset() {
+  holdsFactor_ = isShifted_ = false;
+  restored_.clear();
+}
+
+LinearSolution SparseLDLSolver::solve(const SystemMatrix& matrix, ConstVec3Span b, Vec3Span x) {
+  prepare(matrix);
+  ConjugateGradientResult result;
+  result.solution.converged = false;
+  const bool tryKept = holdsFactor_ && !isShifted_ && keepIterations > 0;
+  if (tryKept) {
+    result = cg_.solve(matrix, this, b, x, false, keepIterations, tolerance);
+  }
+  if (!result.solution.converged) {
+    factorize(matrix);
+    if (isShifted_) {
+      // the true matrix has no minimum to iterate to
+      ++shifted_;
+      apply(b, x);
+      result.solution = {1, 0, true};
+    } else {
+      result = cg_.solve(matrix, this, b, x, false, iterations, tolerance);
+      if (!result.solution.converged) ++notConverged_;
+    }
+  }
+  lastIterations.set(result.solution.iterations);
+  lastResidual.set(result.solution.residual);
+  return result.solution;
+}
+
+void SparseLDLSolver::prepare(const SystemMatrix& matrix) {
+  if (!analyzed_) {
+    bool complete = false;
+    matrix_ = BlockMatrix(matrix.system.pattern(complete));
+    lower_ = matrix_.lower();
+    factor_.analyzePattern(lower_);
+    permuted_.resize(lower_.rows());
+    analyzed_ = true;
+  }
+  if (restored_.empty()) return;
+  if (static_cast<Eigen::Index>(restored_.size()) == lower_.nonZeros()) {
+    std::ranges::copy(restored_, lower_.valuePtr());
+    holdsFactor_ = factorIsPositive();
+  }
+  restored_.clear();
+}
+
+void SparseLDLSolver::factorize(const SystemMatrix& matrix) {
+  matrix.assemble(matrix_);
+  lower_ = matrix_.lower();
+  factorizations.set(factorizations + 1);
+  holdsFactor_ = true;
+  isShifted_ = false;
+  if (factorIsPositive()) return;
+  isShifted_ = true;
+  const Eigen::VectorXd diagonal = lower_.diagonal();
+  const double floor = 1e-12 * diagonal.cwiseAbs().maxCoeff();
+  double added = 0;
+  for (double wanted = shift; wanted < 1e12; wanted *= 10) {
+    for (Eigen::Index i = 0; i < lower_.cols(); ++i) {
+      lower_.coeffRef(i, i) += (wanted - added) * std::max(std::abs(diagonal[i]), floor);
+    }
+    added = wanted;
+    if (factorIsPositive()) return;
+  }
+}
+
+bool SparseLDLSolver::factorIsPositive() {
+  factor_.factorize(lower_);
+  if (factor_.info() != Eigen::Success) return false;
+  inversePivot_ = factor_.vectorD();
+  // pivots at the level of rounding belong to motions without stiffness
+  const double least = 1e-14 * inversePivot_.maxCoeff();
+  if (!(inversePivot_.minCoeff() > least)) return false;
+  inversePivot_ = inversePivot_.cwiseInverse();
+  return true;
+}
+
+void SparseLDLSolver::apply(ConstVec3Span r, Vec3Span z) {
+  permuted_.noalias() = factor_.permutationP() * flat(r);
+  factor_.matrixL().solveInPlace(permuted_);
+  permuted_.array() *= inversePivot_.array();
+  factor_.matrixU().solveInPlace(permuted_);
+  flat(z).noalias() = factor_.permutationPinv() * permuted_;
+}
+
+void SparseLDLSolver::save(StateWriter& writer) const {
+  writer.write("factorizations", factorizations.value());
+  writer.write("shifted", static_cast<int>(isShifted_));
+  const bool waiting = !restored_.empty();
+  const std::span<const double> entries(
+      waiting ? restored_.data() : lower_.valuePtr(),
+      waiting ? restored_.size() : static_cast<std::size_t>(holdsFactor_ ? lower_.nonZeros() : 0));
+  writer.write("factorised", entries);
+}
+
+void SparseLDLSolver::restore(StateReader& reader) {
+  reset();
+  int shiftedBefore = 0, made = 0;
+  if (reader.read("shifted", shiftedBefore)) isShifted_ = shiftedBefore != 0;
+  if (reader.read("factorizations", made)) factorizations.set(made);
+  restored_.resize(reader.count<double>("factorised"));
+  if (!reader.read("factorised", std::span(restored_))) restored_.clear();
+}
+
+}  // namespace stroma

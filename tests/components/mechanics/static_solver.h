@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Equilibrium of a point-based body for the tests: Newton's method on assembled matrices with
+// backtracking on the energy.
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <functional>
+
+#include "components/mechanics/mls_elasticity.h"
+
+namespace stroma::test {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+template <class Material>
+SparseMatrix stiffnessMatrix(const MlsElasticity<Material>& elasticity, Index particles) {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(particles) * 200 * 9);
+  elasticity.assembleStiffness([&entries](Index a, Index b, const Mat3& block) {
+    if (b > a) return;
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c)
+        if (block(r, c) != 0) entries.emplace_back(3 * a + r, 3 * b + c, block(r, c));
+  });
+  SparseMatrix K(3 * particles, 3 * particles);
+  K.setFromTriplets(entries.begin(), entries.end());
+  return K;
+}
+
+// Supports and stiffness beyond the body: per degree of freedom a spring to a target position.
+struct Springs {
+  Eigen::VectorXd stiffness, target;  // N/m, m
+
+  explicit Springs(ConstVec3Span X)
+      : stiffness(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * X.size()))),
+        target(flat(X)) {}
+};
+
+// Solves K u = f at rest; a tiny spring everywhere stands for missing supports, and is refined away
+// in the deformation as long as the load is balanced.
+template <class Material>
+std::vector<Vec3> solveLinear(MlsElasticity<Material>& elasticity, ConstVec3Span X,
+                              ConstVec3Span load, const Springs& springs) {
+  elasticity.prepareTangent(X);
+  SparseMatrix K = stiffnessMatrix(elasticity, static_cast<Index>(X.size()));
+  const double tiny = 1e-9 * K.diagonal().maxCoeff();
+  K += SparseMatrix(springs.stiffness.asDiagonal());
+  SparseMatrix shifted = K;
+  for (Eigen::Index d = 0; d < K.rows(); ++d) shifted.coeffRef(d, d) += tiny;
+  const Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> factor(shifted);
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(K.rows());
+  const Eigen::VectorXd f = flat(load);
+  const auto symmetric = K.template selfadjointView<Eigen::Lower>();
+  for (int k = 0; k < 3; ++k) u += factor.solve(f - symmetric * u);
+  std::vector<Vec3> out(X.size());
+  flat(Vec3Span(out)) = u;
+  return out;
+}
+
+struct StaticProblem {
+  // Adds external forces at x and returns minus their potential, 0 where it has none to compare.
+  std::function<double(ConstVec3Span x, Vec3Span f)> load;
+  const Springs* springs;
+  double tolerance = 1e-9;  // residual over the size of the load
+  int maxIterations = 60;
+};
+
+struct StaticResult {
+  bool converged = false;
+  int iterations = 0;
+  double residual = 0;
+};
+
+// Newton from x with the filtered tangent where the exact one is not positive; x ends at rest.
+template <class Material>
+StaticResult solveStatic(MlsElasticity<Material>& elasticity, Vec3Span x,
+                         const StaticProblem& problem) {
+  const auto count = static_cast<Index>(x.size());
+  const auto& springs = *problem.springs;
+  std::vector<Vec3> f(x.size());
+  double loadSize = 0;
+  const auto evaluate = [&](double& merit) {
+    std::fill(f.begin(), f.end(), Vec3::Zero());
+    const double work = problem.load(x, f);
+    loadSize = std::max(flat(Vec3Span(f)).norm(), 1e-30);
+    elasticity.addForces(x, f);
+    const Eigen::VectorXd stretch = flat(ConstVec3Span(x)) - springs.target;
+    flat(Vec3Span(f)) -= springs.stiffness.cwiseProduct(stretch);
+    merit =
+        elasticity.energy(x) + 0.5 * stretch.dot(springs.stiffness.cwiseProduct(stretch)) - work;
+  };
+  StaticResult result;
+  double merit = 0;
+  evaluate(merit);
+  for (; result.iterations < problem.maxIterations; ++result.iterations) {
+    result.residual = flat(Vec3Span(f)).norm() / loadSize;
+    if (result.residual < problem.tolerance) return result.converged = true, result;
+    Eigen::VectorXd step;
+    for (const auto definiteness : {Definiteness::exact, Definiteness::filtered}) {
+      elasticity.prepareTangent(x, definiteness);
+      SparseMatrix K = stiffnessMatrix(elasticity, count);
+      K += SparseMatrix(springs.stiffness.asDiagonal());
+      const Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> factor(K);
+      if (factor.info() != Eigen::Success) continue;
+      step = factor.solve(flat(Vec3Span(f)));
+      if (factor.vectorD().minCoeff() > 0) break;
+    }
+    const Eigen::VectorXd start = flat(ConstVec3Span(x)), downhill = flat(Vec3Span(f));
+    const double before = merit, slope = downhill.dot(step);
+    const double norm = downhill.norm();
+    double length = 1;
+    for (int k = 0; k < 25; ++k, length *= 0.5) {
+      flat(x) = start + length * step;
+      evaluate(merit);
+      if (merit <= before - 1e-4 * length * slope || flat(Vec3Span(f)).norm() < 0.5 * norm) break;
+    }
+  }
+  result.residual = flat(Vec3Span(f)).norm() / loadSize;
+  return result;
+}
+
+}  // namespace stroma::test

@@ -1,0 +1,16 @@
+# What `cmake --install` puts where: bin/stroma, lib/libstroma-core.so, lib/stroma/ (modules with their
+# manifests), include/stroma/ and lib/cmake/Stroma/, which find_package(Stroma) reads.
+include(CMakePackageConfigHelpers)
+
+set(package_folder lib/cmake/Stroma)
+install(EXPORT StromaTargets NAMESPACE Stroma:: DESTINATION ${package_folder})
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/StromaConfig.cmake.in
+                              ${PROJECT_BINARY_DIR}/StromaConfig.cmake
+                              INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/StromaConfigVersion.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/StromaConfig.cmake ${PROJECT_BINARY_DIR}/StromaConfigVersion.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/StromaModule.cmake
+        DESTINATION ${package_folder})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/core DESTINATION include/stroma
+        FILES_MATCHING PATTERN "*.h")

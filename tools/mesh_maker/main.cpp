@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// stroma-mesh: writes the meshes that the scenes use. Exit codes: 0 written, 1 usage, 4 file
+// trouble.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "tools/mesh_maker/cornea.h"
+#include "tools/mesh_maker/organs.h"
+
+namespace {
+
+using stroma::meshes::GroupedMesh;
+
+bool write(const GroupedMesh& mesh, const std::filesystem::path& path) {
+  std::ofstream file(path, std::ios::binary);
+  stroma::meshes::writeObj(mesh, file);
+  file.close();
+  if (file) return true;
+  std::cerr << "stroma-mesh: cannot write " << path.string() << '\n';
+  return false;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  constexpr int usage = 1, fileTrouble = 4;
+  constexpr int shellRings = 12, capRings = 16;
+  CLI::App app{
+      "Makes the meshes of Stroma's scenes: Wavefront OBJ, metres, the same bytes every time",
+      "stroma-mesh"};
+  app.require_subcommand(1);
+
+  struct Job {
+    std::string name, help, file;
+    int rings;  // 0: the mesh has one resolution
+    GroupedMesh (*make)(int rings);
+  };
+  std::vector<Job> jobs = {
+      {"cornea-sheet", "anterior surface, 192 nodes, 350 triangles", "cornea_sheet.obj", 0,
+       [](int) { return stroma::meshes::corneaSheet(); }},
+      {"cornea-shell", "closed cornea, 0.58 to 0.64 mm thick", "cornea_shell.obj", shellRings,
+       stroma::meshes::corneaShell},
+      {"cornea-cap", "closed circular cap, uniformly 0.58 mm thick", "cornea_cap.obj", capRings,
+       stroma::meshes::corneaCap},
+      {"liver", "closed, 502 nodes, 1000 triangles", "liver.obj", 0,
+       [](int) { return stroma::meshes::liver(); }},
+      {"stomach", "two openings, 512 nodes, 991 triangles", "stomach.obj", 0,
+       [](int) { return stroma::meshes::stomach(); }}};
+
+  std::string out;
+  for (Job& job : jobs) {
+    CLI::App* command = app.add_subcommand(job.name, "Write the " + job.help);
+    command->add_option("--out", out, "file to write")->default_str(job.file);
+    if (job.rings > 0)
+      command->add_option("--rings", job.rings, "rings of triangles from apex to rim")
+          ->check(CLI::Range(2, 400))
+          ->capture_default_str();
+  }
+  CLI::App* all = app.add_subcommand("all", "Write all of them into a folder");
+  all->add_option("--out", out, "folder, made if it does not exist")->default_str("scenes/meshes");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : usage;
+  }
+
+  if (all->parsed()) {
+    const std::filesystem::path folder = out.empty() ? "scenes/meshes" : out;
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    for (const Job& job : jobs)
+      if (!write(job.make(job.rings), folder / job.file)) return fileTrouble;
+    return 0;
+  }
+  for (const Job& job : jobs)
+    if (app.got_subcommand(job.name) && !write(job.make(job.rings), out.empty() ? job.file : out))
+      return fileTrouble;
+  return 0;
+}

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line. Each subcommand is one file beside this one.
+#include <exception>
+#include <iostream>
+
+#include "tools/stroma/command.h"
+
+namespace {
+
+constexpr const char* introduction =
+    "Stroma: real-time deformation and cutting of soft tissue, point-based.\n"
+    "Reads a scene (XML), makes its time steps and writes what the scene asks for.";
+
+constexpr const char* closing =
+    "Examples:\n"
+    "  stroma run scenes/cornea/pull.xml\n"
+    "  stroma run scenes/cornea/pull.xml --time 0.5 --set /cornea/grip.scale=-1 --out out/push\n"
+    "  stroma check scenes/*/*.xml\n"
+    "  stroma components MLSForceField\n"
+    "`stroma COMMAND --help` tells more.\n\n"
+    "Exit codes: 0 done, 1 wrong usage, 2 scene invalid, 3 diverged, 4 trouble with output or\n"
+    "checkpoint files, 130 interrupted.\n"
+    "STROMA_PLUGIN_PATH: folders with further modules, separated by colons.";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  namespace cli = stroma::cli;
+  CLI::App app(introduction, "stroma");
+  app.footer(closing);
+  app.set_version_flag("--version",
+                       "stroma " STROMA_VERSION "\n" + std::string(stroma::coreBuildId()));
+  app.require_subcommand(1);
+  int exitCode = cli::done;
+  cli::addRun(app, exitCode);
+  cli::addCheck(app, exitCode);
+  cli::addPlan(app, exitCode);
+  cli::addComponents(app, exitCode);
+  cli::addSchema(app, exitCode);
+  cli::addDescribe(app, exitCode);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    return app.exit(problem) == 0 ? cli::done : cli::wrongUsage;
+  } catch (const std::exception& problem) {
+    std::cerr << "stroma: " << problem.what() << "\n";
+    return cli::fileTrouble;
+  }
+  return exitCode;
+}

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+// `stroma run SCENE`: makes the steps of a scene and reports what they did.
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cmath>
+#include <ctime>
+#include <iostream>
+#include <memory>
+
+#include "core/interfaces/observer.h"
+#include "core/parallel.h"
+#include "core/traverse.h"
+#include "tools/stroma/command.h"
+#include "tools/stroma/progress_bar.h"
+#include "tools/stroma/run_report.h"
+
+namespace stroma::cli {
+namespace {
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  std::string scene, out, resume;
+  SceneFlags flags;
+  std::uint64_t steps = 0;
+  std::string time, checkpointEvery;  // durations; bare numbers are seconds
+  bool stepsGiven = false, profile = false, json = false;
+  int threads = 1;
+};
+
+std::atomic<int> signalReceived{0};
+
+// The first signal ends the run after its step; a second one kills, as if nobody listened.
+void listenForSignals() {
+  struct sigaction action {};
+  action.sa_handler = [](int signal) { signalReceived = signal; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+double milliseconds(Clock::duration duration) {
+  return std::chrono::duration<double, std::milli>(duration).count();
+}
+
+double cpuMilliseconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+// Why nothing can be written into the folder, which need not exist yet; empty when it can.
+std::string folderProblem(const fs::path& folder) {
+  std::error_code failure;
+  fs::path there = fs::absolute(folder, failure);
+  while (!fs::exists(there, failure) && there.has_relative_path()) there = there.parent_path();
+  if (!fs::is_directory(there, failure)) return "'" + there.string() + "' is not a folder";
+  if (access(there.c_str(), W_OK | X_OK) != 0) return "cannot write into '" + there.string() + "'";
+  return "";
+}
+
+bool isFinite(const Scene& scene) {
+  for (const auto& system : scene.systems()) {
+    for (const Vec3Span values : {system->x(), system->v()}) {
+      for (const Vec3& value : values) {
+        if (!value.allFinite()) return false;
+      }
+    }
+  }
+  return true;
+}
+
+class Run {
+ public:
+  explicit Run(const Options& options) : options_(options) {
+    const fs::path stem = fs::path(options.scene).stem();
+    out_ = options.out.empty() ? fs::path("out") / stem : fs::path(options.out);
+    checkpoint_ = out_ / (stem.string() + ".checkpoint");
+  }
+
+  int execute() {
+    if (!readDurations()) return wrongUsage;
+    if (!filesArePossible()) return fileTrouble;
+    setThreadCount(options_.threads);
+    const auto begin = Clock::now();
+    SceneOptions sceneOptions = options_.flags.options();
+    sceneOptions.outputFolder = out_;
+    Scene scene(std::move(sceneOptions));
+    const bool loaded = scene.load(options_.scene) && scene.initialise();
+    report_.loadMs = milliseconds(Clock::now() - begin);
+    std::cerr << scene.diagnostics().text();
+    if (!loaded) {
+      if (options_.json) std::cout << scene.diagnostics().json() << "\n";
+      return outputFailed(scene) ? fileTrouble : sceneInvalid;
+    }
+    if (!options_.resume.empty() && !resume(scene)) return fileTrouble;
+    scene.profiler().setEnabled(options_.profile);
+    listenForSignals();
+    advance(scene);
+    return finish(scene);
+  }
+
+ private:
+  bool readDurations() {
+    const auto read = [](const std::string& text, const char* flag, double& value) {
+      if (text.empty()) return true;
+      const auto problem = ValueTraits<double>::parse(text, {"s", UnitSystem{}}, value);
+      if (!problem && std::isfinite(value) && value > 0) return true;
+      std::cerr << "stroma: " << flag << ": "
+                << (problem ? problem->message : "must be greater than 0") << "\n";
+      return false;
+    };
+    return read(options_.time, "--time", time_) &&
+           read(options_.checkpointEvery, "--checkpoint-every", checkpointEvery_);
+  }
+
+  // Trouble with files is found before hours of computing, where it can be.
+  bool filesArePossible() {
+    std::error_code failure;
+    if (!options_.resume.empty() && !fs::is_regular_file(options_.resume, failure)) {
+      return complain("there is no checkpoint '" + options_.resume + "'");
+    }
+    if (options_.out.empty() && options_.checkpointEvery.empty()) return true;
+    const std::string problem = folderProblem(out_);
+    return problem.empty() || complain("--out: " + problem);
+  }
+
+  bool complain(const std::string& problem) {
+    std::cerr << "stroma: " << problem << "\n";
+    fileTrouble_ = true;
+    return false;
+  }
+
+  // Exporters report that they cannot write with ids that begin so.
+  static bool outputFailed(Scene& scene) {
+    for (const Diagnostic& d : scene.diagnostics().all()) {
+      if (d.severity == Severity::error && d.id.starts_with("output")) return true;
+    }
+    return false;
+  }
+
+  bool resume(Scene& scene) {
+    Snapshot snapshot;
+    const std::string problem = readCheckpoint(options_.resume, snapshot, scene.contentHash());
+    if (!problem.empty()) return complain(problem);
+    return scene.restore(snapshot) || complain("'" + options_.resume + "' does not fit this scene");
+  }
+
+  [[nodiscard]] std::uint64_t lastStep(const Scene& scene, double duration) const {
+    if (options_.stepsGiven) return options_.steps;
+    const double wanted = time_ > 0 ? time_ : duration;
+    return static_cast<std::uint64_t>(std::ceil(wanted / scene.dt() - 1e-9));
+  }
+
+  void writeState(const Scene& scene, const fs::path& file) {
+    std::error_code failure;
+    fs::create_directories(file.parent_path(), failure);
+    const std::string problem = writeCheckpoint(file.string(), scene.save(), scene.contentHash());
+    if (!problem.empty()) {
+      complain(problem);
+    } else if (report_.files.empty() || report_.files.back() != file.string()) {
+      report_.files.push_back(file.string());
+    }
+  }
+
+  void advance(Scene& scene) {
+    const std::uint64_t first = scene.stepCount();
+    const std::uint64_t last = lastStep(scene, scene.root().duration);
+    const auto every =
+        checkpointEvery_ > 0
+            ? static_cast<std::uint64_t>(std::max(1.0, std::round(checkpointEvery_ / scene.dt())))
+            : 0;
+    ProgressBar bar(first, last, scene.dt());
+    const double cpu = cpuMilliseconds();
+    const auto begin = Clock::now();
+    while (scene.stepCount() < last && signalReceived == 0 && scene.step()) {
+      const std::uint64_t step = scene.stepCount();
+      bar.show(step, scene.time());
+      if (every > 0 && step % every == 0) {
+        writeState(scene, checkpoint_);
+        if (fileTrouble_) break;
+      }
+    }
+    report_.wallMs = milliseconds(Clock::now() - begin);
+    report_.cpuMs = cpuMilliseconds() - cpu;
+    report_.steps = scene.stepCount() - first;
+    bar.clear();
+  }
+
+  int finish(Scene& scene) {
+    report_.scene = options_.scene;
+    report_.interrupted = signalReceived != 0;
+    const int shown = scene.diagnostics().errorCount();
+    scene.stop();
+    if (scene.divergence()) {
+      std::cerr << "stroma: diverged: " << scene.divergence()->message << "\n";
+      if (isFinite(scene)) writeState(scene, out_ / "last_good.checkpoint");
+    }
+    if (scene.diagnostics().errorCount() > shown) std::cerr << scene.diagnostics().text();
+    report_.collectFrom(scene);
+    (options_.json ? std::cerr : std::cout) << (options_.profile ? scene.profiler().text() : "");
+    std::cout << (options_.json ? report_.json() : report_.text()) << std::flush;
+    if (scene.divergence()) return diverged;
+    if (fileTrouble_ || outputFailed(scene)) return fileTrouble;
+    return report_.interrupted ? 128 + signalReceived : static_cast<int>(done);
+  }
+
+  const Options& options_;
+  fs::path out_, checkpoint_;
+  double time_ = 0, checkpointEvery_ = 0;  // s, 0 = not given
+  bool fileTrouble_ = false;
+  RunReport report_;
+};
+
+}  // namespace
+
+void addRun(CLI::App& app, int& exitCode) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("run", "Run a scene");
+  command->add_option("SCENE", options->scene, "Scene file")->required();
+  auto* steps = command->add_option("--steps", options->steps,
+                                    "Steps to make, counted from the start of the scene");
+  auto* time = command->add_option("--time", options->time,
+                                   "Simulated time to reach, such as 0.5 or \"20 ms\"; without it "
+                                   "and --steps the scene's duration");
+  steps->option_text("N")->excludes(time);
+  time->option_text("T");
+  options->flags.addTo(*command);
+  command->add_option("--out", options->out, "Folder for results; out/<scene> without it")
+      ->option_text("DIR");
+  command
+      ->add_option("--threads", options->threads,
+                   "Threads; the results have the same bits with any number. Default 1: the "
+                   "fastest for small scenes")
+      ->option_text("N")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--profile", options->profile, "Time every call and print the table");
+  command->add_flag("--json", options->json, "Print one JSON object on standard output");
+  command->add_option("--resume", options->resume, "Continue from a checkpoint of this scene")
+      ->option_text("FILE");
+  command
+      ->add_option("--checkpoint-every", options->checkpointEvery,
+                   "Write OUT/<scene>.checkpoint so often (simulated time)")
+      ->option_text("T");
+  command->footer(
+      "--steps and --time count from the start of the scene, also after --resume.\n"
+      "An interrupt (Ctrl-C) finishes the step, closes the files and prints the summary.\n"
+      "A run that diverges leaves its last good state in OUT/last_good.checkpoint.\n"
+      "Examples:\n"
+      "  stroma run scenes/cornea/pull.xml\n"
+      "  stroma run scenes/cornea/pull.xml --time \"200 ms\" --set \"/cornea/grip.scale=-1\"\n"
+      "  stroma run scenes/beam/fixbeam_E6000.xml --checkpoint-every 0.5 --out out/beam\n"
+      "  stroma run scenes/beam/fixbeam_E6000.xml --out out/beam \\\n"
+      "         --resume out/beam/fixbeam_E6000.checkpoint --json");
+  command->callback([options, steps, &exitCode] {
+    options->stepsGiven = steps->count() > 0;
+    exitCode = Run(*options).execute();
+  });
+}
+
+}  // namespace stroma::cli
