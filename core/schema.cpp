@@ -171,10 +171,10 @@ class XsdWriter {
         "<xs:schema xmlns:xs=\"http://www.w3.org/2001/XMLSchema\">\n"
         "  <xs:element name=\"Node\" type=\"Node\"/>\n";
     // a value, a link to another attribute, or a parameter of an include
-    pattern("number", "\\s*([-+]?[.0-9]|@|\\$\\{)(.|\\s)*");
-    pattern("numbers", "\\s*|\\s*([-+]?[.0-9]|@|\\$\\{)(.|\\s)*");
-    pattern("truth", "\\s*([tTfF0-9]|@|\\$\\{).*");
-    pattern("link", "\\s*(@|\\$\\{)(.|\\s)*");
+    pattern("number", "\\s*([-+]?[.0-9]|@|[$]\\{)(.|\\s)*");
+    pattern("numbers", "\\s*|\\s*([-+]?[.0-9]|@|[$]\\{)(.|\\s)*");
+    pattern("truth", "\\s*([tTfF0-9]|@|[$]\\{).*");
+    pattern("link", "\\s*(@|[$]\\{)(.|\\s)*");
     nodeType(scene);
     for (const auto& [name, entry] : scene.registry().entries()) component(scene, entry);
     include();

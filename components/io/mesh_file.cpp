@@ -2,7 +2,6 @@
 #include "components/io/mesh_file.h"
 
 #include <assimp/config.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
@@ -21,7 +20,7 @@ namespace {
 constexpr std::uintmax_t mostBytes = 2'000'000'000;
 
 const char* extension(MeshFormat format) {
-  constexpr std::array names{"obj", "stl", "ply", "off"};
+  constexpr std::array names{"obj", "stl", "ply"};
   return names[static_cast<std::size_t>(format)];
 }
 
@@ -87,7 +86,8 @@ MeshGroup& groupNamed(MeshData& data, const std::string& name) {
   return at != data.groups.end() ? *at : data.groups.emplace_back(MeshGroup{name, {}});
 }
 
-void addFaces(const Part& part, std::span<const Index> points, MeshData& data) {
+// Polygons become fans round their first corner; the library's own splitting asserts on odd faces.
+void addFaces(const Part& part, std::span<const Index> points, bool triangulate, MeshData& data) {
   MeshGroup& group = groupNamed(data, part.group);
   for (unsigned f = 0; f < part.mesh->mNumFaces; ++f) {
     const aiFace& face = part.mesh->mFaces[f];
@@ -100,6 +100,13 @@ void addFaces(const Part& part, std::span<const Index> points, MeshData& data) {
         return;
       }
       if (i < 4) node[i] = points[face.mIndices[i]];
+    }
+    if (triangulate && face.mNumIndices > 3) {
+      for (unsigned i = 2; i < face.mNumIndices; ++i) {
+        group.triangles.push_back(static_cast<Index>(data.triangles.size()));
+        data.triangles.push_back({node[0], points[face.mIndices[i - 1]], points[face.mIndices[i]]});
+      }
+      continue;
     }
     switch (face.mNumIndices) {
       case 0:
@@ -147,38 +154,69 @@ void addVertexData(const std::vector<Part>& parts, std::span<const Index> points
   for (Vec3& n : data.normals) n.normalize();
 }
 
-void convert(const aiScene& scene, MeshFormat format, const ObjRecords& records, MeshData& data) {
+void convert(const aiScene& scene, MeshFormat format, const ObjRecords& records, bool triangulate,
+             MeshData& data) {
   std::vector<Part> parts;
   if (scene.mRootNode) collectParts(scene, *scene.mRootNode, parts);
   std::vector<Index> points;
   if (format == MeshFormat::obj && isCornerByCorner(parts, records)) {
     data.positions = records.points;
     points = records.corners;
-  } else if (format == MeshFormat::ply || format == MeshFormat::off) {
+  } else if (format == MeshFormat::ply) {
     points = keep(parts, data.positions);
   } else {
     points = weld(parts, data.positions);
   }
   std::size_t first = 0;
   for (const Part& part : parts) {
-    addFaces(part, std::span(points).subspan(first, part.mesh->mNumVertices), data);
+    addFaces(part, std::span(points).subspan(first, part.mesh->mNumVertices), triangulate, data);
     first += part.mesh->mNumVertices;
   }
   addVertexData(parts, points, data);
   std::erase_if(data.groups, [](const MeshGroup& g) { return g.triangles.empty(); });
 }
 
-// A PLY header may promise billions of elements: the file must at least have a byte for each.
-std::string plyPromise(std::string_view bytes) {
+bool isPlyType(const std::string& word) {
+  constexpr std::array types{"char",  "uchar",  "short",   "ushort", "int",   "uint",
+                             "float", "double", "int8",    "uint8",  "int16", "uint16",
+                             "int32", "uint32", "float32", "float64"};
+  return std::ranges::find(types, word) != types.end();
+}
+
+bool isPlyProperty(std::istringstream& words) {
+  std::string type, item, name;
+  if (!(words >> type)) return false;
+  if (type == "list" && (!(words >> type >> item) || !isPlyType(item))) return false;
+  return isPlyType(type) && words >> name && !(words >> name);
+}
+
+// What is wrong with a PLY file's header. The library hangs on or allocates for whatever a header
+// says, so this one is strict: known words only, and a byte of file for each element promised.
+std::string plyHeaderProblem(std::string_view bytes) {
   std::istringstream header(std::string(bytes.substr(0, 65536)));
-  std::string word, kind;
-  double count = 0, sum = 0;
-  while (header >> word && word != "end_header") {
-    if (word == "element" && header >> kind >> count) sum += count;
+  std::string line;
+  double promised = 0;
+  for (int number = 1; std::getline(header, line); ++number) {
+    std::istringstream words(line);
+    std::string word, kind;
+    words >> word;
+    bool good = number == 1 ? word == "ply" : word == "comment" || word == "obj_info";
+    if (word == "format")
+      good = (words >> kind) && (kind == "ascii" || kind.starts_with("binary_"));
+    if (word == "property") good = isPlyProperty(words);
+    if (word == "element") {
+      std::uint32_t count = 0;
+      good = (words >> kind >> count) && line.find('-') == std::string::npos;
+      promised += count;
+    }
+    if (word == "end_header" && !header.eof()) {
+      return promised <= static_cast<double>(bytes.size())
+                 ? ""
+                 : "the header promises more elements than the file can hold";
+    }
+    if (!good) return "line " + std::to_string(number) + " of the header is not understood";
   }
-  if (word != "end_header") return "the header has no end";
-  if (sum >= 0 && sum <= static_cast<double>(bytes.size())) return {};
-  return "the header promises more elements than the file can hold";
+  return "the header has no end";
 }
 
 std::string firstLine(std::string text) { return text.substr(0, text.find('\n')); }
@@ -196,19 +234,19 @@ MeshData parseMesh(std::string_view bytes, MeshFormat format, bool triangulate) 
     records = scanObj(bytes);
     data.problems = records.problems;
   } else if (format == MeshFormat::ply) {
-    const std::string problem = plyPromise(bytes);
+    const std::string problem = plyHeaderProblem(bytes);
     if (!problem.empty()) data.problems.push_back({problem});
   }
   if (!data.problems.empty()) return data;
   try {
     Assimp::Importer importer;
-    const aiScene* scene = importer.ReadFileFromMemory(
-        bytes.data(), bytes.size(), triangulate ? aiProcess_Triangulate : 0U, extension(format));
+    const aiScene* scene =
+        importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0U, extension(format));
     if (!scene) {
       data.problems.push_back(
           {"not read: " + stroma::quoted(firstLine(importer.GetErrorString()), 200)});
     } else {
-      convert(*scene, format, records, data);
+      convert(*scene, format, records, triangulate, data);
     }
   } catch (const std::exception& failure) {
     data.problems.push_back({"not read: " + stroma::quoted(failure.what(), 200)});

@@ -12,7 +12,7 @@
 
 namespace stroma {
 
-enum class MeshFormat { obj, stl, ply, off };
+enum class MeshFormat { obj, stl, ply };
 
 // A named part of a mesh: a group or object of an OBJ file, a solid of an STL file.
 struct MeshGroup {
@@ -32,9 +32,10 @@ struct MeshData {
 };
 
 // Points and faces are those of the file, in its order: N `v` records of an OBJ file give N points,
-// with all digits, N vertices of a PLY or OFF file N points. STL files name no points: equal
-// positions are one point, numbered as they first occur. Coordinates of PLY, STL and OFF files come
-// in single precision. Quads and polygons are split into triangles unless told otherwise.
+// with all digits, N vertices of a PLY file N points. STL files name no points: equal
+// positions are one point, numbered as they first occur. Coordinates of PLY and STL files come
+// in single precision. Convex quads and polygons are split into
+// triangles unless told otherwise.
 // Never throws and never reads files of more than 2 GB.
 [[nodiscard]] MeshData readMesh(const std::filesystem::path& file, MeshFormat format,
                                 bool triangulate = true);

@@ -22,10 +22,6 @@ PLUGIN(io, "0.1.0", "Apache-2.0", "Mesh files, pictures for ParaView, tables.")
       .doc("Reads a surface mesh from a PLY file, text or binary.")
       .domain("Single precision; points keep the file's order.")
       .example(scene);
-  registry.add<stroma::MeshFileLoader<MeshFormat::off>>("MeshOffLoader")
-      .doc("Reads a surface mesh from an OFF file.")
-      .domain("Single precision; points keep the file's order.")
-      .example(scene);
   registry.add<stroma::MeshGroupRoi>("MeshGroupROI")
       .doc("Selects the points and triangles of named groups of a mesh file.")
       .example(scene);

@@ -21,6 +21,10 @@ void Recorder::configure() {
   if (everySteps.isSet() && period > 0) {
     error(period, "attr-conflict", "and 'exportEveryNumberOfSteps' cannot both be given");
   }
+  if (everySteps == 0 && period <= 0 && !atBegin && !atEnd) {
+    warning("export-never", "writes nothing",
+            "give 'exportEveryNumberOfSteps', 'period', 'exportAtBegin' or 'exportAtEnd'");
+  }
 }
 
 void Recorder::schedule(Schedule& schedule) {

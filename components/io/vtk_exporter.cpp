@@ -6,6 +6,7 @@
 
 #include "core/diagnostics.h"
 #include "core/path.h"
+#include "core/snapshot.h"
 
 namespace stroma {
 namespace {

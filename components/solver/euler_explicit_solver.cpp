@@ -13,6 +13,8 @@ namespace {
 
 // Estimates approach the eigenvalue from below, and tissue stiffens between them.
 constexpr double safety = 0.9;
+// Products that an estimate may take; few when it only serves a warning.
+constexpr int iterations = 100, iterationsToWarn = 20;
 
 }  // namespace
 
@@ -45,7 +47,8 @@ void EulerExplicitSolver::reset() {
 void EulerExplicitSolver::estimate(double time, double dt) {
   System& s = system();
   s.linearize({s.x(), s.v(), time});
-  stability_.update(s, rayleighMass, rayleighStiffness);
+  stability_.update(s, rayleighMass, rayleighStiffness,
+                    substeps > 0 ? iterationsToWarn : iterations);
   stableStep.set(std::min(stability_.largestStep(), 1e30));
   if (substeps > 0) {
     currentSubsteps.set(substeps);

@@ -15,9 +15,9 @@ namespace stroma {
 // iterations.
 class StabilityEstimate {
  public:
-  // Estimates for the state last linearised; `rayleighMass` and `rayleighStiffness` add to the
-  // damping.
-  void update(const System& system, double rayleighMass, double rayleighStiffness);
+  // Estimates for the state last linearised, by at most `iterations` products with each of the two
+  // matrices; `rayleighMass` and `rayleighStiffness` add to the damping.
+  void update(const System& system, double rayleighMass, double rayleighStiffness, int iterations);
   // Largest stable step (s), infinite when nothing moves.
   [[nodiscard]] double largestStep() const;
   void forget() { stiffnessVector_.clear(), dampingVector_.clear(); }
@@ -27,7 +27,7 @@ class StabilityEstimate {
 
  private:
   [[nodiscard]] double largestEigenvalue(const System& system, double stiffness, double damping,
-                                         std::vector<Vec3>& vector);
+                                         int iterations, std::vector<Vec3>& vector);
   double stiffness_ = 0, damping_ = 0;  // w^2 (1/s^2), c (1/s)
   std::vector<Vec3> stiffnessVector_, dampingVector_, image_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An observer watches a run and changes nothing in it: monitors, exporters. The run's summary asks it for the
-// values it saw last and the files it wrote.
+// An observer watches a run and changes nothing in it: monitors, exporters. The run's summary asks
+// it for the values it saw last and the files it wrote.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,9 @@ class Observer : public Component {
   static constexpr std::string_view role = "Observer";
 
   // Named values as they were last seen, in SI units.
-  [[nodiscard]] virtual std::vector<std::pair<std::string, double>> lastValues() const { return {}; }
+  [[nodiscard]] virtual std::vector<std::pair<std::string, double>> lastValues() const {
+    return {};
+  }
   // Files written so far.
   [[nodiscard]] virtual std::vector<std::filesystem::path> files() const { return {}; }
   // Why output is missing (a full disk, ...), empty when all was written.

@@ -31,6 +31,20 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version",
                        "stroma " STROMA_VERSION "\n" + std::string(stroma::coreBuildId()));
   app.require_subcommand(1);
+  // the library's own text for a wrong command only says that one is wanted
+  app.failure_message([argc, argv](const CLI::App* failed, const CLI::Error& problem) {
+    std::string text = "stroma: " + std::string(problem.what()) + "\n";
+    if (argc > 1 && argv[1][0] != '-' && failed->get_subcommands().empty()) {
+      std::vector<std::string> names;
+      for (const CLI::App* command : failed->get_subcommands({})) {
+        names.push_back(command->get_name());
+      }
+      const std::string hint = stroma::didYouMean(argv[1], names);
+      text = "stroma: there is no command " + stroma::quoted(argv[1]) +
+             (hint.empty() ? "" : ": " + hint) + "\n";
+    }
+    return text + "stroma --help tells more.\n";
+  });
   int exitCode = cli::done;
   cli::addRun(app, exitCode);
   cli::addCheck(app, exitCode);

@@ -3,16 +3,14 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
 namespace stroma::cli {
 
-ProgressBar::ProgressBar(std::uint64_t first, std::uint64_t last, double dt)
-    : first_(first),
-      last_(last),
-      endTime_(static_cast<double>(last) * dt),
-      enabled_(isatty(STDERR_FILENO) == 1) {}
+ProgressBar::ProgressBar(std::uint64_t first, std::uint64_t last, double endTime)
+    : first_(first), last_(last), endTime_(endTime), enabled_(isatty(STDERR_FILENO) == 1) {}
 
 void ProgressBar::show(std::uint64_t step, double time) {
   if (!enabled_) return;

@@ -10,8 +10,8 @@ namespace stroma::cli {
 
 class ProgressBar {
  public:
-  // Steps first+1 to last are about to be made.
-  ProgressBar(std::uint64_t first, std::uint64_t last, double dt);
+  // Steps first+1 to last are about to be made, up to a simulated time.
+  ProgressBar(std::uint64_t first, std::uint64_t last, double endTime);
   // After a step; draws at most ten times a second.
   void show(std::uint64_t step, double time);
   // Removes the bar, so that other text can follow.

@@ -51,14 +51,15 @@ double cpuMilliseconds() {
   return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
 }
 
-// Why nothing can be written into the folder, which need not exist yet; empty when it can.
+// Why nothing can be written into the folder, which is made if need be; empty when it can.
 std::string folderProblem(const fs::path& folder) {
   std::error_code failure;
-  fs::path there = fs::absolute(folder, failure);
-  while (!fs::exists(there, failure) && there.has_relative_path()) there = there.parent_path();
-  if (!fs::is_directory(there, failure)) return "'" + there.string() + "' is not a folder";
-  if (access(there.c_str(), W_OK | X_OK) != 0) return "cannot write into '" + there.string() + "'";
-  return "";
+  fs::create_directories(folder, failure);
+  if (!fs::is_directory(folder)) {
+    return "cannot make the folder '" + folder.string() + "': " + failure.message();
+  }
+  const bool writable = access(folder.c_str(), W_OK | X_OK) == 0;
+  return writable ? "" : "cannot write into '" + folder.string() + "'";
 }
 
 bool isFinite(const Scene& scene) {
@@ -116,7 +117,8 @@ class Run {
            read(options_.checkpointEvery, "--checkpoint-every", checkpointEvery_);
   }
 
-  // Trouble with files is found before hours of computing, where it can be.
+  // Trouble with files is found before hours of computing, where it can be. The standard folder is
+  // made only when something is written.
   bool filesArePossible() {
     std::error_code failure;
     if (!options_.resume.empty() && !fs::is_regular_file(options_.resume, failure)) {
@@ -133,10 +135,10 @@ class Run {
     return false;
   }
 
-  // Exporters report that they cannot write with ids that begin so.
+  // Exporters report with this id that they cannot write.
   static bool outputFailed(Scene& scene) {
     for (const Diagnostic& d : scene.diagnostics().all()) {
-      if (d.severity == Severity::error && d.id.starts_with("output")) return true;
+      if (d.severity == Severity::error && d.id == "output") return true;
     }
     return false;
   }
@@ -172,10 +174,13 @@ class Run {
         checkpointEvery_ > 0
             ? static_cast<std::uint64_t>(std::max(1.0, std::round(checkpointEvery_ / scene.dt())))
             : 0;
-    ProgressBar bar(first, last, scene.dt());
+    ProgressBar bar(first, last, scene.root().time + static_cast<double>(last) * scene.dt());
     const double cpu = cpuMilliseconds();
     const auto begin = Clock::now();
-    while (scene.stepCount() < last && signalReceived == 0 && scene.step()) {
+    const Diagnostics& diagnostics = scene.diagnostics();
+    // an error while running: an exporter cannot write any more
+    while (scene.stepCount() < last && signalReceived == 0 && diagnostics.errorCount() == 0 &&
+           scene.step()) {
       const std::uint64_t step = scene.stepCount();
       bar.show(step, scene.time());
       if (every > 0 && step % every == 0) {
@@ -192,13 +197,12 @@ class Run {
   int finish(Scene& scene) {
     report_.scene = options_.scene;
     report_.interrupted = signalReceived != 0;
-    const int shown = scene.diagnostics().errorCount();
     scene.stop();
     if (scene.divergence()) {
       std::cerr << "stroma: diverged: " << scene.divergence()->message << "\n";
       if (isFinite(scene)) writeState(scene, out_ / "last_good.checkpoint");
     }
-    if (scene.diagnostics().errorCount() > shown) std::cerr << scene.diagnostics().text();
+    if (scene.diagnostics().errorCount() > 0) std::cerr << scene.diagnostics().text();
     report_.collectFrom(scene);
     (options_.json ? std::cerr : std::cout) << (options_.profile ? scene.profiler().text() : "");
     std::cout << (options_.json ? report_.json() : report_.text()) << std::flush;

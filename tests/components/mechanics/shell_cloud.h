@@ -44,7 +44,7 @@ inline void matchEnclosedVolume(Cloud& cloud) {
   for (double& v : cloud.volumes) v *= factor;
 }
 
-// Lattice jittered by 0.4 between radii a and b, `layers` cells across; Voronoi volumes.
+// Lattice jittered by 0.4 between radii a and b, `layers` cells across, relaxed; Voronoi volumes.
 inline Cloud thickSphere(double a, double b, int layers, unsigned seed) {
   Cloud cloud;
   const double s = cloud.spacing = (b - a) / layers;
@@ -58,19 +58,27 @@ inline Cloud thickSphere(double a, double b, int layers, unsigned seed) {
         const Vec3 p = s * Vec3(x + 0.5 + dx, y + 0.5 + dy, z + 0.5 + dz);
         if (p.norm() > a + 0.1 * s && p.norm() < b - 0.1 * s) cloud.positions.push_back(p);
       }
-  cloud.volumes.assign(cloud.positions.size(), 0);
-  const PointTree tree(cloud.positions);
-  constexpr int sub = 4;
+  // particles move to the centroids of their Voronoi cells, as a sampler leaves them
+  constexpr int sub = 4, relaxations = 3;
   Index owner = 0;
   double squared = 0;
-  for (int z = -half * sub; z < half * sub; ++z)
-    for (int y = -half * sub; y < half * sub; ++y)
-      for (int x = -half * sub; x < half * sub; ++x) {
-        const Vec3 p = (Vec3(x, y, z) + Vec3::Constant(0.5)) * s / sub;
-        if (p.norm() < a || p.norm() > b) continue;
-        tree.nearest(p, {&owner, 1}, {&squared, 1});
-        cloud.volumes[owner] += 1;
-      }
+  for (int pass = 0; pass <= relaxations; ++pass) {
+    const PointTree tree(cloud.positions);
+    std::vector<Vec3> moments(cloud.positions.size(), Vec3::Zero());
+    cloud.volumes.assign(cloud.positions.size(), 0);
+    for (int z = -half * sub; z < half * sub; ++z)
+      for (int y = -half * sub; y < half * sub; ++y)
+        for (int x = -half * sub; x < half * sub; ++x) {
+          const Vec3 p = (Vec3(x, y, z) + Vec3::Constant(0.5)) * s / sub;
+          if (p.norm() < a || p.norm() > b) continue;
+          tree.nearest(p, {&owner, 1}, {&squared, 1});
+          cloud.volumes[owner] += 1;
+          moments[owner] += p;
+        }
+    if (pass == relaxations) break;
+    for (std::size_t i = 0; i < moments.size(); ++i)
+      if (cloud.volumes[i] > 0) cloud.positions[i] = moments[i] / cloud.volumes[i];
+  }
   const double full = std::numbers::pi;
   addPolarCap(cloud, b, full, 4 * layers, 8 * layers, false);
   addPolarCap(cloud, a, full, 3 * layers, 6 * layers, true);
@@ -164,7 +172,8 @@ struct CapResponse {
   double rise, depth;  // of the anterior apex, m
 };
 
-// Apex motion with the rim face held: inflated by 2 kPa from behind, indented by 10 mN on a patch.
+// Apex motion with the outermost half spacing of columns held: inflated by 2 kPa from behind,
+// indented by 10 mN on a patch.
 template <class Material>
 CapResponse capResponse(const Body& body, MlsElasticity<Material>& elasticity) {
   const auto& X = body.cloud.positions;
@@ -174,26 +183,17 @@ CapResponse capResponse(const Body& body, MlsElasticity<Material>& elasticity) {
     return std::abs(n.dot(x.normalized())) < 0.5 && std::acos(x.z() / x.norm()) > maxTheta - 0.02;
   };
   elasticity.prepareTangent(X);
-  std::vector<Eigen::Triplet<double>> springs;
   double patchArea = 0;
-  for (std::size_t s = 0; s < body.samples.size(); ++s) {
-    const SurfaceSample& sample = body.samples[s];
-    const Vec3 n = sample.area.normalized();
-    if (sample.position.norm() > middle && n.dot(sample.position) > 0 &&
+  for (const SurfaceSample& sample : body.samples)
+    if (sample.position.norm() > middle && sample.area.dot(sample.position) > 0 &&
         sample.position.head<2>().norm() < 0.789e-3)
       patchArea += sample.area.norm();
-    if (!onRim(n, sample.position)) continue;
-    const double stiffness = 1e3 * 5e5 / capThickness * sample.area.norm();
-    for (const ShapeEntry& a : body.shape.shapeOf(static_cast<Index>(s)))
-      for (const ShapeEntry& b : body.shape.shapeOf(static_cast<Index>(s)))
-        for (int c = 0; c < 3; ++c)
-          springs.emplace_back(3 * a.particle + c, 3 * b.particle + c,
-                               stiffness * a.weight * b.weight);
+  SparseMatrix K = stiffnessMatrix(elasticity, static_cast<Index>(X.size()));
+  for (Index i = 0; i < static_cast<Index>(X.size()); ++i) {
+    const double fromRim = (maxTheta - std::acos(X[i].z() / X[i].norm())) * middle;
+    if (fromRim > 0.5 * body.cloud.spacing) continue;
+    for (int c = 0; c < 3; ++c) K.coeffRef(3 * i + c, 3 * i + c) *= 1e6;
   }
-  SparseMatrix K = stiffnessMatrix(elasticity, static_cast<Index>(X.size())),
-               rim(K.rows(), K.cols());
-  rim.setFromTriplets(springs.begin(), springs.end());
-  K += SparseMatrix(rim.triangularView<Eigen::Lower>());
   const Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> factor(K);
   const auto apexMotion = [&](const std::vector<Vec3>& load) {
     std::vector<Vec3> u(X.size());
