@@ -52,8 +52,8 @@ bool FiniteGuard::restoreLastGood() {
 std::optional<Divergence> FiniteGuard::check(std::uint64_t step, double time, double dt) {
   if (!allFinite(system_->x()) || !allFinite(system_->v())) return explain(step, time, dt);
   if (keeps_) {
-    std::ranges::copy(system_->x(), x_.begin());
-    std::ranges::copy(system_->v(), v_.begin());
+    flat(Vec3Span(x_)) = flat(system_->x());
+    flat(Vec3Span(v_)) = flat(system_->v());
   }
   return std::nullopt;
 }

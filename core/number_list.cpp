@@ -143,9 +143,10 @@ class NumberReader {
       std::string unitText(written.substr(0, mostUnitText + 1));
       if (unitText.front() == '/') unitText.insert(0, "1");
       const auto unit = parseUnit(unitText);
-      if (!unit && attached && std::ranges::any_of(token(text_, begin), isDigit)) {
-        return badNumber(text_, numberBegin);
-      }
+      // "1.5.2" and "2e" are numbers gone wrong rather than numbers with a unit
+      const bool mangled = std::ranges::any_of(token(text_, begin), isDigit) ||
+                           written.front() == 'e' || written.front() == 'E';
+      if (!unit && attached && mangled) return badNumber(text_, numberBegin);
       if (auto error = check(unit, written, begin)) return error;
       suffix_ = written;
       factor_ = unit->factor / own_->factor;
@@ -162,8 +163,9 @@ class NumberReader {
       error.message = quoted(written) + " is not a number";
     } else if (!unit) {
       error.id = "unit-unknown";
-      error.message = "unknown unit " + quoted(written);
-      error.hint = unitHint(written);
+      error.message =
+          "unknown unit " + quoted(written) + ": expected " + dimensionName(own_->dimension);
+      error.hint = unitHint(written, own_->dimension);
     } else if (!own_) {
       error.id = "unit-unexpected";
       error.message = "the value has no unit, got " + quoted(written);

@@ -213,14 +213,23 @@ std::optional<Unit> parseUnit(std::string_view text) {
   return unit;
 }
 
-std::string unitHint(std::string_view wrong) {
-  static const std::vector<std::string> common{
+std::string unitHint(std::string_view wrong, const Dimension& wanted) {
+  constexpr std::array common{
       "m",    "mm",    "um",   "cm",  "km",    "m^2",   "mm^2", "m^3",    "mm^3",   "ml",
       "kg",   "g",     "mg",   "s",   "ms",    "us",    "min",  "Hz",     "kHz",    "N",
       "mN",   "kN",    "Pa",   "kPa", "MPa",   "GPa",   "mmHg", "bar",    "N/m",    "kN/m",
       "N/mm", "N s/m", "Pa s", "J",   "mJ",    "J/m^2", "W",    "kg/m^3", "g/cm^3", "m/s",
       "mm/s", "m/s^2", "deg",  "rad", "rad/s", "deg/s", "%"};
-  return didYouMean(wrong, common);
+  std::vector<std::string> fitting;
+  for (const char* unit : common) {
+    if (parseUnit(unit)->dimension == wanted) fitting.emplace_back(unit);
+  }
+  std::string hint = didYouMean(wrong, fitting);
+  if (!hint.empty() || fitting.empty() || wanted == none) return hint;
+  const std::string quantity = dimensionName(wanted);
+  hint = "units of " + quantity.substr(0, quantity.find(" (")) + ": ";
+  for (const std::string& unit : fitting) hint += (&unit == &fitting.front() ? "" : ", ") + unit;
+  return hint;
 }
 
 std::string dimensionName(const Dimension& dimension) {

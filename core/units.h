@@ -35,8 +35,9 @@ inline constexpr std::size_t mostUnitText = 64;
 // combined before they are rounded, so "g/cm^3" is exactly 1000.
 [[nodiscard]] std::optional<Unit> parseUnit(std::string_view text);
 
-// "did you mean 'kPa'?", or "" where no common unit is near.
-[[nodiscard]] std::string unitHint(std::string_view wrong);
+// "did you mean 'kPa'?" for the nearest common unit of the dimension that is wanted; where none is
+// near, a few of them: "units of time: s, ms, us, min"; "" for dimensions without common units.
+[[nodiscard]] std::string unitHint(std::string_view wrong, const Dimension& wanted);
 
 // Readable name with the SI unit: "pressure (Pa)"; "kg^2 m^-1" for what has no name.
 [[nodiscard]] std::string dimensionName(const Dimension& dimension);

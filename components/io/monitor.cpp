@@ -56,6 +56,9 @@ void Monitor::configure() {
   } else if (quantity.isSet()) {
     error(quantity, "attr-conflict", "and 'attribute' cannot both be recorded by one Monitor");
   }
+  if (since.isSet() && (attribute.isSet() || quantity != Quantity::displacement)) {
+    error(since, "attr-conflict", "has a meaning for quantity=\"displacement\" only");
+  }
 }
 
 void Monitor::bind() {
@@ -81,6 +84,27 @@ void Monitor::start() {
           "links to '" + std::string(attribute.source()->name()) + "' (" +
               attribute.source()->typeName() + "), which is no number");
   }
+}
+
+void Monitor::schedule(Schedule& schedule) {
+  if (since.isSet()) {
+    schedule.add<&Monitor::takeReference>(Stage::Guard, *this, "reference when due");
+  }
+  Recorder::schedule(schedule);
+}
+
+void Monitor::takeReference(const StepContext& step) {
+  // half a step of grace: times are sums of steps
+  if (!reference_.empty() || step.time < since - 0.5 * step.dt) return;
+  for (const Index i : particles_) {
+    reference_.push_back(mechanicalState->x()[static_cast<std::size_t>(i)]);
+  }
+}
+
+Vec3 Monitor::displacementOf(std::size_t k) const {
+  const auto i = static_cast<std::size_t>(particles_[k]);
+  if (!since.isSet()) return mechanicalState->x()[i] - mechanicalState->rest()[i];
+  return reference_.empty() ? Vec3(Vec3::Zero()) : Vec3(mechanicalState->x()[i] - reference_[k]);
 }
 
 Monitor::Samples Monitor::sampleAttribute() const {
@@ -113,12 +137,12 @@ Monitor::Samples Monitor::sample() const {
   }
   const MechanicalState& state = *mechanicalState;
   Samples samples{3, {}};
-  for (const Index particle : particles_) {
-    const auto i = static_cast<std::size_t>(particle);
+  for (std::size_t k = 0; k < particles_.size(); ++k) {
+    const auto i = static_cast<std::size_t>(particles_[k]);
     Vec3 value = Vec3::Zero();
     switch (*quantity) {
       case Quantity::displacement:
-        value = state.x()[i] - state.rest()[i];
+        value = displacementOf(k);
         break;
       case Quantity::position:
         value = state.x()[i];
@@ -229,6 +253,7 @@ void Monitor::reset() {
   Recorder::reset();
   out_.close();
   resumedAt_.reset();
+  reference_.clear();
 }
 
 void Monitor::stop() {
@@ -236,7 +261,13 @@ void Monitor::stop() {
   out_.close();
 }
 
-void Monitor::restore(StateReader&) {
+void Monitor::save(StateWriter& writer) const {
+  writer.write("reference", ConstVec3Span(reference_));
+}
+
+void Monitor::restore(StateReader& reader) {
+  reference_.resize(reader.count<double>("reference") / 3);
+  if (!reader.read("reference", Vec3Span(reference_))) reference_.clear();
   out_.close();
   resumedAt_ = scene().stepCount();
   setLastStep(resumedAt_);

@@ -66,6 +66,10 @@ class Monitor final : public Recorder {
   Attribute<Part> component{this, "component", Part::norm, "Which part of vectors."};
   Attribute<Reduction> reduce{this, "reduce", Reduction::mean, "How particles become one value."};
   Attribute<IndexList> indices{this, "indices", {}, "Particles, all if not given."};
+  Attribute<double> since{this, "since", 0.0,
+                          "Displacements count from where the particles are at this time, and are "
+                          "zero before; not given = from the rest positions.",
+                          {.unit = "s", .min = 0}};
   Attribute<std::string> attribute{
       this, "attribute", "", "Records this numeric attribute instead: \"@component.attribute\"."};
   Link<MechanicalState> mechanicalState{
@@ -74,8 +78,10 @@ class Monitor final : public Recorder {
   void configure() override;
   void bind() override;
   void start() override;
+  void schedule(Schedule& schedule) override;
   void reset() override;
   void stop() override;
+  void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
   [[nodiscard]] std::vector<std::pair<std::string, double>> lastValues() const override;
 
@@ -91,10 +97,13 @@ class Monitor final : public Recorder {
   [[nodiscard]] Samples sampleAttribute() const;
   [[nodiscard]] Samples sampleEnergy() const;
   [[nodiscard]] std::string unit() const;
+  void takeReference(const StepContext& step);
+  [[nodiscard]] Vec3 displacementOf(std::size_t k) const;
   // File with its header and, after a resumption, the rows up to then.
   void open();
 
   std::vector<Index> particles_;
+  std::vector<Vec3> reference_;  // positions at `since`, empty before
   std::ofstream out_;
   std::optional<std::uint64_t> resumedAt_;
   bool started_ = false;

@@ -109,8 +109,8 @@ bool MLSForceField::findSupports() {
   SupportOptions options;
   options.shape = supportShape;
   options.kernel = kernel;
-  options.count = supportRadius.isSet() ? 0 : *supportCount;
-  options.radius = supportRadius;
+  options.count = supportRadius.isSet() || supportSpacings.isSet() ? 0 : *supportCount;
+  options.radius = supportSpacings.isSet() ? supportSpacings * particleSpacing() : *supportRadius;
   options.reach = supportReach;
   std::vector<EllipsoidAxes> axes;
   const ConstVec3Span X = mechanicalState->rest();
@@ -123,8 +123,7 @@ bool MLSForceField::findSupports() {
       return false;
     }
     for (const Vec3& n : *normal) axes.push_back({n.normalized(), spacing, layerSpacing});
-    // a radius is written in metres, ellipsoids measure in spacings
-    if (options.count == 0) options.radius /= *spacing;
+    options.radius /= *spacing;  // ellipsoids measure in spacings
   }
   neighbourhoods_ = findNeighbourhoods(X, options, axes);
   gradients_ = computeGradients(X, neighbourhoods_);
@@ -144,7 +143,7 @@ void MLSForceField::makeGradientsConsistent() {
   }
   plainGradients_ = gradients_;
   // loads on the surface's nodes travel through the same shape functions: tractions are then exact
-  const SurfaceShape shape = shapeOf(closed.positions, surfaceSupport);
+  const SurfaceShape shape = shapeOf(closed.positions, closed.triangles, surfaceSupport);
   std::vector<Vec3> areas(closed.positions.size(), Vec3::Zero());
   for (const Triangle& t : closed.triangles) {
     const auto& p = closed.positions;
@@ -257,10 +256,21 @@ void MLSForceField::addTangent(BlockMatrix& matrix, Index offset, double stiffne
   law_->addTangent(matrix, offset, -stiffness);
 }
 
-SurfaceShape MLSForceField::shapeOf(ConstVec3Span points, Index supports) const {
-  return SurfaceShape(mechanicalState->rest(), neighbourhoods_,
-                      plainGradients_.values.empty() ? gradients_ : plainGradients_, points,
-                      supports);
+SurfaceShape MLSForceField::shapeOf(ConstVec3Span points, std::span<const Triangle> triangles,
+                                    Index supports) const {
+  const Gradients& gradients = plainGradients_.values.empty() ? gradients_ : plainGradients_;
+  const ConstVec3Span X = mechanicalState->rest();
+  if (triangles.empty()) return SurfaceShape(X, neighbourhoods_, gradients, points, supports);
+  // samples half a particle spacing apart integrate the shape functions well
+  return SurfaceShape::ofSurface(X, neighbourhoods_, gradients, points, triangles, supports,
+                                 0.5 * particleSpacing());
+}
+
+double MLSForceField::particleSpacing() const {
+  if (spacing > 0.0) return spacing;
+  double body = 0;
+  for (const double v : volumes_) body += v;
+  return std::cbrt(body / static_cast<double>(volumes_.size()));
 }
 
 }  // namespace stroma

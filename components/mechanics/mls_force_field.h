@@ -90,6 +90,9 @@ class MLSForceField final : public ForceField {
                                   0.0,
                                   "Support by radius instead of by count.",
                                   {.unit = "m", .min = 0, .exclusiveMin = true}};
+  Attribute<double> supportSpacings{this, "supportSpacings", 0.0,
+                                    "Support by radius, in particle spacings; 1.6 suits ellipsoids.",
+                                    {.min = 0, .exclusiveMin = true}};
   Attribute<double> supportReach{this,
                                  "supportReach",
                                  1.2,
@@ -188,7 +191,9 @@ class MLSForceField final : public ForceField {
   // The discretisation, for the volume constraint and mappings of the same particles.
   [[nodiscard]] const MlsBonds& bonds() const { return *bonds_; }
   // Shape functions of surface points, the ones that the consistent gradient's boundary term uses.
-  [[nodiscard]] SurfaceShape shapeOf(ConstVec3Span points, Index supports) const;
+  // Without triangles the points stand alone.
+  [[nodiscard]] SurfaceShape shapeOf(ConstVec3Span points, std::span<const Triangle> triangles,
+                                     Index supports) const;
   [[nodiscard]] const RankReport& rankReport() const { return gradients_.report; }
   [[nodiscard]] const std::optional<ProjectionReport>& projectionReport() const {
     return projection_;
@@ -199,6 +204,7 @@ class MLSForceField final : public ForceField {
   template <class Material>
   class LawOf;
 
+  [[nodiscard]] double particleSpacing() const;
   [[nodiscard]] bool readVolumes();
   [[nodiscard]] bool findSupports();
   void makeGradientsConsistent();

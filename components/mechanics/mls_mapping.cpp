@@ -10,7 +10,8 @@ void MLSMapping::bind() {
     return;
   }
   const Index supports = supportCount > 0 ? *supportCount : *forceField->surfaceSupport;
-  shape_ = forceField->shapeOf(out->rest(), supports);
+  const auto triangles = surface ? surface->triangles() : std::span<const Triangle>{};
+  shape_ = forceField->shapeOf(out->rest(), triangles, supports);
 }
 
 void MLSMapping::apply(ConstVec3Span particles, Vec3Span points) const {

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "components/mechanics/point_tree.h"
+#include "components/mechanics/surface_quadrature.h"
 #include "core/parallel.h"
 
 namespace stroma {
@@ -50,48 +52,111 @@ class RowBuilder {
   std::vector<Index> touched_;
 };
 
+// Weighted sums of the first-order extrapolations of the particles near a point.
+class Extrapolator {
+ public:
+  Extrapolator(ConstVec3Span X, const Neighbourhoods& n, const Gradients& gradients, Index supports)
+      : X_(X), n_(n), gradients_(gradients), row_(X.size()) {
+    if (supports < 1) throw std::invalid_argument("a surface point needs at least one support");
+    if (X.empty()) throw std::invalid_argument("no particles to support the surface");
+    const bool anyWhole = std::ranges::find(gradients.rank, 3) != gradients.rank.end();
+    for (std::size_t i = 0; i < X.size(); ++i)
+      if (gradients.rank[i] == 3 || !anyWhole) {
+        carriers_.push_back(X[i]);
+        id_.push_back(static_cast<Index>(i));
+      }
+    tree_.emplace(carriers_);
+    const std::size_t count = std::min(static_cast<std::size_t>(supports), carriers_.size());
+    nearest_.resize(count);
+    squared_.resize(count);
+    weights_.resize(count);
+  }
+
+  // Adds factor phi(point); from the sum of the points' own extrapolations to `shift` beyond.
+  void add(const Vec3& point, double factor, const Vec3& shift = Vec3::Zero()) {
+    tree_->nearest(point, nearest_, squared_);
+    shepardWeights(squared_, n_.options.kernel, weights_);
+    for (std::size_t k = 0; k < nearest_.size(); ++k) {
+      const Index i = id_[nearest_[k]];
+      const double weight = factor * weights_[k];
+      addExtrapolation(i, weight, weight * (point - X_[i]) + weights_[k] * shift);
+    }
+  }
+  void flush(std::vector<ShapeEntry>& entries) { row_.flush(entries); }
+
+ private:
+  void addExtrapolation(Index i, double weight, const Vec3& arm) {
+    double own = weight;
+    for (Index slot = n_.rows[i].begin; slot < n_.rows[i].begin + n_.rows[i].size; ++slot) {
+      const double part = gradients_.values[slot].dot(arm);
+      row_.add(n_.neighbours[slot], part);
+      own -= part;
+    }
+    row_.add(i, own);
+  }
+
+  ConstVec3Span X_;
+  const Neighbourhoods& n_;
+  const Gradients& gradients_;
+  RowBuilder row_;
+  std::vector<Vec3> carriers_;  // the tree's points
+  std::vector<Index> id_;       // and the particles they are
+  std::optional<PointTree> tree_;
+  std::vector<Index> nearest_;
+  std::vector<double> squared_, weights_;
+};
+
 }  // namespace
 
 SurfaceShape::SurfaceShape(ConstVec3Span X, const Neighbourhoods& n, const Gradients& gradients,
                            ConstVec3Span points, Index supports) {
-  if (supports < 1) throw std::invalid_argument("a surface point needs at least one support");
-  if (X.empty()) throw std::invalid_argument("no particles to support the surface");
-  std::vector<Vec3> whole;
-  std::vector<Index> id;
-  for (std::size_t i = 0; i < X.size(); ++i)
-    if (gradients.rank[i] == 3) {
-      whole.push_back(X[i]);
-      id.push_back(static_cast<Index>(i));
-    }
-  if (whole.empty())
-    for (std::size_t i = 0; i < X.size(); ++i) {
-      whole.push_back(X[i]);
-      id.push_back(static_cast<Index>(i));
-    }
-
-  const PointTree tree(whole);
-  const std::size_t count = std::min(static_cast<std::size_t>(supports), whole.size());
-  std::vector<Index> nearest(count);
-  std::vector<double> squared(count), weights(count);
-  RowBuilder row(X.size());
+  Extrapolator phi(X, n, gradients, supports);
   for (const Vec3& s : points) {
-    tree.nearest(s, nearest, squared);
-    shepardWeights(squared, n.options.kernel, weights);
-    for (std::size_t k = 0; k < count; ++k) {
-      const Index i = id[nearest[k]];
-      const Vec3 arm = weights[k] * (s - X[i]);
-      double own = weights[k];
-      for (Index slot = n.rows[i].begin; slot < n.rows[i].begin + n.rows[i].size; ++slot) {
-        const double part = gradients.values[slot].dot(arm);
-        row.add(n.neighbours[slot], part);
-        own -= part;
-      }
-      row.add(i, own);
-    }
-    row.flush(entries_);
+    phi.add(s, 1);
+    phi.flush(entries_);
     begin_.push_back(static_cast<Index>(entries_.size()));
   }
   buildTranspose(static_cast<Index>(X.size()));
+}
+
+SurfaceShape SurfaceShape::ofSurface(ConstVec3Span X, const Neighbourhoods& n,
+                                     const Gradients& gradients, ConstVec3Span nodes,
+                                     std::span<const Triangle> triangles, Index supports,
+                                     double maxEdge) {
+  const std::vector<SurfaceSample> samples = sampleSurface(nodes, triangles, maxEdge);
+  struct Share {
+    std::size_t sample;
+    double weight;  // area of the sample that belongs to the node
+  };
+  std::vector<std::vector<Share>> shares(nodes.size());
+  for (std::size_t s = 0; s < samples.size(); ++s)
+    for (int corner = 0; corner < 3; ++corner)
+      shares[triangles[samples[s].triangle][corner]].push_back(
+          {s, samples[s].barycentric[corner] * samples[s].area.norm()});
+
+  SurfaceShape shape;
+  Extrapolator phi(X, n, gradients, supports);
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    double area = 0;
+    Vec3 mean = Vec3::Zero();
+    for (const Share& share : shares[node]) {
+      area += share.weight;
+      mean += share.weight * samples[share.sample].position;
+    }
+    if (area > 0) {
+      const Vec3 shift = nodes[node] - mean / area;
+      for (const Share& share : shares[node]) {
+        const double part = share.weight / area;
+        phi.add(samples[share.sample].position, part, part * shift);
+      }
+    } else {
+      phi.add(nodes[node], 1);
+    }
+    phi.flush(shape.entries_);
+    shape.begin_.push_back(static_cast<Index>(shape.entries_.size()));
+  }
+  shape.buildTranspose(static_cast<Index>(X.size()));
+  return shape;
 }
 
 void SurfaceShape::buildTranspose(Index particles) {

@@ -23,6 +23,17 @@ class SurfaceShape {
   SurfaceShape(ConstVec3Span particles, const Neighbourhoods& neighbourhoods,
                const Gradients& gradients, ConstVec3Span points, Index supports = 12);
 
+  // Nodes of a triangle surface. A node's shape function is the mean, over the triangles around it,
+  // of those of sample points no further apart than maxEdge (m), weighted by the node's own linear
+  // shape function, plus the first-order shift from the samples' mean position to the node. Forces
+  // on nodes (pressure times nodal area, say) thus act as tractions spread over the triangles,
+  // however coarse these are; nodes without triangles are points as above.
+  [[nodiscard]] static SurfaceShape ofSurface(ConstVec3Span particles,
+                                              const Neighbourhoods& neighbourhoods,
+                                              const Gradients& gradients, ConstVec3Span nodes,
+                                              std::span<const Triangle> triangles, Index supports,
+                                              double maxEdge);
+
   [[nodiscard]] Index pointCount() const { return static_cast<Index>(begin_.size()) - 1; }
   [[nodiscard]] Index particleCount() const {
     return static_cast<Index>(transposedBegin_.size()) - 1;

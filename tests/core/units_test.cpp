@@ -99,9 +99,10 @@ TEST(Units, whatIsNoUnitIsRefused) {
 }
 
 TEST(Units, hintsNameTheNearest) {
-  EXPECT_EQ(unitHint("kpa"), "did you mean 'kPa'?");
-  EXPECT_EQ(unitHint("kg/m3"), "did you mean 'kg/m^3'?");
-  EXPECT_EQ(unitHint("parsec"), "");
+  EXPECT_EQ(unitHint("kpa", pressure), "did you mean 'kPa'?");
+  EXPECT_EQ(unitHint("kg/m3", {-3, 1}), "did you mean 'kg/m^3'?");
+  EXPECT_EQ(unitHint("msec", {0, 0, 1}), "units of time: s, ms, us, min");
+  EXPECT_EQ(unitHint("parsec", {5}), "");
 }
 
 TEST(Units, dimensionsHaveNames) {

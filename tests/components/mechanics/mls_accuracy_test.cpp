@@ -128,13 +128,13 @@ TEST(Accuracy, cantileverUnderItsWeight) {
   }
 }
 
-// Slender bar clamped at x = 0 by two layers of held tissue behind, nu = 0, loaded in steps to the
+// Slender bar of square section (a flat one buckles sideways), its first layer held, nu = 0, to the
 // numbers k = P L^2 / EI (tip force) or w L^3 / EI (weight). Returns the tip's fall over L.
 struct Elastica {
-  static constexpr int layers = 8, width = 3, slenderness = 12, behind = 2;
+  static constexpr int layers = 8, width = 8, slenderness = 10;
 
   static std::vector<double> fall(unsigned seed, bool weight, const std::vector<double>& numbers) {
-    const int n = layers * slenderness + behind;
+    const int n = layers * slenderness;
     Cloud cloud = boxCloud({n, layers, width}, 0.4, seed);
     const Body body(std::move(cloud), optionsFor(GradientKind::fewIterations));
     MlsElasticity<HookeCorotated> elasticity(HookeCorotated(youngModulus, 0), *body.bonds);
@@ -151,7 +151,7 @@ struct Elastica {
                                                     : Vec3(0, 0, 0);
       });
     }
-    const Springs springs = clamp(body, behind);
+    const Springs springs = clamp(body, 1);
     std::vector<Vec3> x(X);
     std::vector<double> out;
     for (const double k : numbers) {
@@ -186,13 +186,9 @@ struct Elastica {
   }
 };
 
-TEST(Accuracy, elasticaUnderATipForce) {
-  Elastica::check(false, {0.5, 1, 2, 4}, {0.16214, 0.30172, 0.49346, 0.66996});
-}
+TEST(Accuracy, elasticaUnderATipForce) { Elastica::check(false, {1, 2}, {0.30172, 0.49346}); }
 
-TEST(Accuracy, elasticaUnderItsWeight) {
-  Elastica::check(true, {1, 2, 4, 8}, {0.12347, 0.23851, 0.42516, 0.64063});
-}
+TEST(Accuracy, elasticaUnderItsWeight) { Elastica::check(true, {2, 8}, {0.23851, 0.64063}); }
 
 // Radial displacement of a thick sphere under inner pressure, a = 1, b = 2, p = 1.
 TEST(Accuracy, thickSphereUnderPressure) {
