@@ -41,6 +41,7 @@ void Component::error(const LinkBase& link, std::string id, std::string message,
 }
 
 void Component::warning(std::string id, std::string message, std::string hint) {
+  warned_ = true;
   scene().diagnostics().warning(std::move(id), describe() + ": " + message, where(),
                                 std::move(hint));
 }

@@ -67,6 +67,8 @@ class Component : public AttributeOwner {
   [[nodiscard]] bool verbose() const { return verbose_; }
   // Whether an error was reported for this component; those that depend on it are then not bound.
   [[nodiscard]] bool failed() const { return failed_; }
+  // Whether a warning was reported for it: what follows from the same fault need not warn again.
+  [[nodiscard]] bool warned() const { return warned_; }
 
   // Diagnostics that point at this component's element, or at where the attribute or link was written.
   void error(std::string id, std::string message, std::string hint = "");
@@ -87,6 +89,7 @@ class Component : public AttributeOwner {
   std::vector<Limiter*> limiters_;
   bool verbose_ = false;
   bool failed_ = false;
+  bool warned_ = false;
 };
 
 }  // namespace stroma

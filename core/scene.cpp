@@ -115,7 +115,8 @@ bool Scene::initialise() {
       if (auto problem = a->pull()) {
         component->error(*a, problem->id,
                          "cannot take the value of '" + a->source()->owner().path() + "." +
-                             std::string(a->source()->name()) + "': " + problem->message,
+                             std::string(a->source()->name()) + "' (" + a->source()->typeName() +
+                             "): " + problem->message,
                          problem->hint);
       }
     }

@@ -332,8 +332,11 @@ void SceneReader::resolveExplicit(Component& component, LinkBase& link) {
       // a name with a dot in it, or an attribute where a component is wanted
       target = resolvePath(component.node(), &component, path, problem, hint);
       if (!target) {
+        const PathTarget owner =
+            resolvePath(component.node(), &component, parts.object, problem, hint);
+        const bool fits = owner.component && link.accepts(*owner.component);
         return fail("link-attr", "links to '" + token + "', an attribute; a " + role + " is wanted",
-                    "");
+                    fits ? "did you mean '@" + std::string(parts.object) + "'?" : "");
       }
     } else {
       target = resolvePath(component.node(), &component, path, problem, hint);

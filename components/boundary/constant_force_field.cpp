@@ -10,7 +10,8 @@ namespace stroma {
 
 void ConstantForceField::configure() {
   if (forces.isSet() == totalForce.isSet()) {
-    error("attr-required", "needs one of 'forces' and 'totalForce'");
+    error("attr-required", std::string("needs one of 'forces' and 'totalForce'") +
+                               (forces.isSet() ? ", not both" : ""));
   } else if (forces.isSet() && !forces.source() && forces->empty()) {
     error(forces, "value-count", "is empty");
   }

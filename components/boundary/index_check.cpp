@@ -23,7 +23,10 @@ bool checkIndices(Component& component, const Attribute<IndexList>& indices,
     component.error(indices, "index-twice", "names particle " + std::to_string(*twice) + " twice");
     return false;
   }
-  if (sorted.empty() && indices.isSet()) {
+  // a region that found nothing has said so itself
+  const auto* region =
+      indices.source() ? dynamic_cast<const Component*>(&indices.source()->owner()) : nullptr;
+  if (sorted.empty() && indices.isSet() && !(region && region->warned())) {
     component.warning("index-empty",
                       "acts on no particle: '" + std::string(indices.name()) + "' is empty");
   }

@@ -24,8 +24,10 @@ bool SurfaceTriangles::select(Component& component, const MechanicalState& state
     std::vector<Triangle> chosen;
     for (const Index t : subset->indices) {
       if (t < 0 || t >= total) {
-        component.error(subset, "index-range",
-                        "names triangle " + std::to_string(t) + " of " + std::to_string(total));
+        component.error(
+            subset, "index-range",
+            "names triangle " + std::to_string(t) + ", but there are " + std::to_string(total),
+            "triangles are counted from 0 to " + std::to_string(total - 1));
         return false;
       }
       chosen.push_back(triangles_[static_cast<std::size_t>(t)]);

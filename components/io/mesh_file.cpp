@@ -7,11 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
-#include <cstring>
 #include <fstream>
 #include <map>
-#include <sstream>
 
+#include "components/io/file_check.h"
 #include "core/diagnostics.h"
 
 namespace stroma {
@@ -48,6 +47,11 @@ std::vector<Index> weld(const std::vector<Part>& parts, std::vector<Vec3>& posit
   for (const Part& part : parts) {
     for (unsigned v = 0; v < part.mesh->mNumVertices; ++v) {
       const Vec3 x = vec(part.mesh->mVertices[v]);
+      if (!x.allFinite()) {  // has no order, and is reported later
+        points.push_back(static_cast<Index>(positions.size()));
+        positions.push_back(x);
+        continue;
+      }
       const auto [at, fresh] = known.try_emplace({x.x() + 0.0, x.y() + 0.0, x.z() + 0.0},
                                                  static_cast<Index>(positions.size()));
       if (fresh) positions.push_back(x);
@@ -173,53 +177,19 @@ void convert(const aiScene& scene, MeshFormat format, const ObjRecords& records,
     first += part.mesh->mNumVertices;
   }
   addVertexData(parts, points, data);
-  std::erase_if(data.groups, [](const MeshGroup& g) { return g.triangles.empty(); });
+  // the library's names for faces that the file puts into no group
+  std::erase_if(data.groups, [](const MeshGroup& g) {
+    return g.triangles.empty() || g.name.empty() || g.name == "defaultobject" ||
+           g.name == "<STL_BINARY>";
+  });
 }
 
-bool isPlyType(const std::string& word) {
-  constexpr std::array types{"char",  "uchar",  "short",   "ushort", "int",   "uint",
-                             "float", "double", "int8",    "uint8",  "int16", "uint16",
-                             "int32", "uint32", "float32", "float64"};
-  return std::ranges::find(types, word) != types.end();
+// The library's words, without the name it gives to bytes in memory.
+std::string reason(std::string text) {
+  text = text.substr(0, text.find('\n'));
+  const std::size_t name = text.find("$$$___magic___$$$");
+  return "not read: " + stroma::quoted(text.substr(0, name), 200);
 }
-
-bool isPlyProperty(std::istringstream& words) {
-  std::string type, item, name;
-  if (!(words >> type)) return false;
-  if (type == "list" && (!(words >> type >> item) || !isPlyType(item))) return false;
-  return isPlyType(type) && words >> name && !(words >> name);
-}
-
-// What is wrong with a PLY file's header. The library hangs on or allocates for whatever a header
-// says, so this one is strict: known words only, and a byte of file for each element promised.
-std::string plyHeaderProblem(std::string_view bytes) {
-  std::istringstream header(std::string(bytes.substr(0, 65536)));
-  std::string line;
-  double promised = 0;
-  for (int number = 1; std::getline(header, line); ++number) {
-    std::istringstream words(line);
-    std::string word, kind;
-    words >> word;
-    bool good = number == 1 ? word == "ply" : word == "comment" || word == "obj_info";
-    if (word == "format")
-      good = (words >> kind) && (kind == "ascii" || kind.starts_with("binary_"));
-    if (word == "property") good = isPlyProperty(words);
-    if (word == "element") {
-      std::uint32_t count = 0;
-      good = (words >> kind >> count) && line.find('-') == std::string::npos;
-      promised += count;
-    }
-    if (word == "end_header" && !header.eof()) {
-      return promised <= static_cast<double>(bytes.size())
-                 ? ""
-                 : "the header promises more elements than the file can hold";
-    }
-    if (!good) return "line " + std::to_string(number) + " of the header is not understood";
-  }
-  return "the header has no end";
-}
-
-std::string firstLine(std::string text) { return text.substr(0, text.find('\n')); }
 
 }  // namespace
 
@@ -233,9 +203,8 @@ MeshData parseMesh(std::string_view bytes, MeshFormat format, bool triangulate) 
   if (format == MeshFormat::obj) {
     records = scanObj(bytes);
     data.problems = records.problems;
-  } else if (format == MeshFormat::ply) {
-    const std::string problem = plyHeaderProblem(bytes);
-    if (!problem.empty()) data.problems.push_back({problem});
+  } else if (auto problem = format == MeshFormat::ply ? plyProblem(bytes) : stlProblem(bytes)) {
+    data.problems.push_back(std::move(*problem));
   }
   if (!data.problems.empty()) return data;
   try {
@@ -243,13 +212,12 @@ MeshData parseMesh(std::string_view bytes, MeshFormat format, bool triangulate) 
     const aiScene* scene =
         importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0U, extension(format));
     if (!scene) {
-      data.problems.push_back(
-          {"not read: " + stroma::quoted(firstLine(importer.GetErrorString()), 200)});
+      data.problems.push_back({reason(importer.GetErrorString())});
     } else {
       convert(*scene, format, records, triangulate, data);
     }
   } catch (const std::exception& failure) {
-    data.problems.push_back({"not read: " + stroma::quoted(failure.what(), 200)});
+    data.problems.push_back({reason(failure.what())});
   }
   return data;
 }

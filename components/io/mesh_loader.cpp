@@ -3,7 +3,6 @@
 
 #include <numbers>
 
-#include "components/io/mesh_check.h"
 #include "core/scene.h"
 
 namespace stroma {
@@ -37,12 +36,17 @@ void MeshLoader::bind() {
   MeshData mesh = readMesh(*file, format_, triangulate);
   for (const MeshProblem& problem : mesh.problems) {
     const std::string line = problem.line > 0 ? ":" + std::to_string(problem.line) : "";
-    error(filename, "mesh-read", file->string() + line + ": " + problem.message);
+    error(filename, "mesh-read",
+          "cannot be used: " + file->string() + line + ": " + problem.message);
   }
   if (failed()) return;
-  for (const MeshRemark& remark : checkMesh(mesh)) {
-    const std::string message = file->string() + ": " + remark.message;
-    remark.unusable ? error(filename, remark.id, message) : warning(remark.id, message);
+  for (MeshRemark& remark : checkMesh(mesh)) {
+    remark.message.insert(0, file->string() + ": ");
+    if (remark.unusable) {
+      error(filename, remark.id, "cannot be used: " + remark.message);
+    } else {
+      blemishes_.push_back(std::move(remark));
+    }
   }
   if (failed()) return;
   transform(mesh);
@@ -52,6 +56,10 @@ void MeshLoader::bind() {
             "positions are metres; scale=\"0.001\" reads a mesh in millimetres");
   }
   publish(std::move(mesh));
+}
+
+void MeshLoader::start() {
+  for (const MeshRemark& blemish : blemishes_) warning(blemish.id, blemish.message);
 }
 
 void MeshLoader::publish(MeshData mesh) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "components/io/mesh_check.h"
 #include "components/io/mesh_file.h"
 #include "core/interfaces/mesh.h"
 
@@ -10,7 +11,8 @@ namespace stroma {
 // Coordinates in the file are metres unless `scale` says otherwise (0.001 for a mesh in
 // millimetres). Files that give no mesh, bad indices and coordinates that are not finite are
 // errors; triangles without area, edges with three triangles or with two that face opposite ways,
-// points without a face and sizes that no tissue has are warnings.
+// points without a face and sizes that no tissue has are warnings, the first four only when nobody
+// refused the mesh for them.
 class MeshLoader : public Mesh {
  public:
   Attribute<FilePath> filename{this, "filename", {}, "The mesh file.", {.required = true}};
@@ -60,6 +62,7 @@ class MeshLoader : public Mesh {
       {.output = true}};
 
   void bind() override;
+  void start() override;
   [[nodiscard]] ConstVec3Span positions() const override { return *position; }
   [[nodiscard]] std::span<const Edge> edges() const override { return *edgeList; }
   [[nodiscard]] std::span<const Triangle> triangles() const override { return *triangleList; }
@@ -74,6 +77,7 @@ class MeshLoader : public Mesh {
   void publish(MeshData mesh);
   MeshFormat format_;
   std::vector<MeshGroup> groups_;
+  std::vector<MeshRemark> blemishes_;
 };
 
 template <MeshFormat format>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/io/obj_records.h"
 
-#include <charconv>
 #include <cmath>
 
+#include "components/io/mesh_text.h"
 #include "core/diagnostics.h"
 
 namespace stroma {
@@ -11,28 +11,14 @@ namespace {
 
 constexpr std::size_t mostProblems = 20;
 
-// Splits off the first word.
-std::string_view takeWord(std::string_view& rest) {
-  const std::size_t begin = std::min(rest.find_first_not_of(" \t\r\\"), rest.size());
-  rest.remove_prefix(begin);
-  const std::size_t end = std::min(rest.find_first_of(" \t\r\\"), rest.size());
-  const std::string_view word = rest.substr(0, end);
-  rest.remove_prefix(end);
-  return word;
-}
-
-template <class Number>
-bool readNumber(std::string_view word, Number& out) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), out);
-  return failure == std::errc() && end == word.data() + word.size();
-}
+// a backslash continues a line and is no part of a word
+constexpr std::string_view blanks = " \t\r\\";
 
 class Scanner {
  public:
   void line(std::string_view rest, int number) {
     line_ = number;
-    const std::string_view record = takeWord(rest);
+    const std::string_view record = takeWord(rest, blanks);
     if (record == "v") point(rest);
     if (record == "vt") ++textureCount_;
     if (record == "vn") ++normalCount_;
@@ -51,7 +37,7 @@ class Scanner {
   void point(std::string_view rest) {
     Vec3 x = Vec3::Zero();
     for (double& coordinate : x) {
-      const std::string_view word = takeWord(rest);
+      const std::string_view word = takeWord(rest, blanks);
       if (!readNumber(word, coordinate)) {
         problem(word.empty() ? "the point has fewer than three coordinates"
                              : stroma::quoted(word) + " is not a number");
@@ -64,7 +50,8 @@ class Scanner {
 
   void face(std::string_view rest, int fewest) {
     int corners = 0;
-    for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) {
+    for (std::string_view word = takeWord(rest, blanks); !word.empty();
+         word = takeWord(rest, blanks)) {
       corner(word);
       ++corners;
     }

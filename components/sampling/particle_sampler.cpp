@@ -32,6 +32,14 @@ void ParticleSampler::bind() {
     error("sampler-surface", "cannot fill '" + surface->path() + "': " + problem);
     return;
   }
+  if (boundaryLoops(closed_.triangles).empty() &&
+      enclosedVolume(closed_.positions, closed_.triangles) < 0) {
+    error("sampler-surface",
+          "cannot fill '" + surface->path() +
+              "': it is turned inside out, its triangles face inwards",
+          "flipNormals=\"true\" on its loader turns them");
+    return;
+  }
   if (layout == ParticleLayout::shell)
     fillShell();
   else
@@ -61,7 +69,7 @@ void ParticleSampler::fillShell() {
   const bool open = !boundaryLoops(closed_.triangles).empty();
   if (open && !thickness.isSet()) {
     error("sampler-open", "cannot fill '" + surface->path() + "': the surface is open",
-          "give it a thickness, or use a closed shell");
+          "give this sampler a 'thickness', or use a closed shell");
     return;
   }
   ShellSamplerOptions options;

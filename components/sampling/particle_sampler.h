@@ -26,9 +26,13 @@ class ParticleSampler final : public Topology {
   Attribute<ParticleLayout> layout{
       this, "layout", ParticleLayout::volume,
       "How particles are laid: volume (blue noise), shell (stacked columns), lattice (a box)."};
-  Attribute<int> count{
-      this, "count", 0, "Particles wanted (volume, shell).", {.min = 1, .aliases = "particles"}};
-  Attribute<int> layers{this, "layers", 3, "Particles through the thickness (shell).", {.min = 1}};
+  Attribute<int> count{this,
+                       "count",
+                       0,
+                       "Particles wanted (volume, shell).",
+                       {.min = 1, .max = 20'000'000, .aliases = "particles"}};
+  Attribute<int> layers{
+      this, "layers", 3, "Particles through the thickness (shell).", {.min = 1, .max = 1000}};
   Attribute<double> thickness{this,
                               "thickness",
                               0.0,

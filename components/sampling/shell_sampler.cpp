@@ -190,6 +190,9 @@ void stack(const Column& column, Index layers, double scale, ShellSamples& out) 
 
 std::string whyNotPossible(const ShellSheets& s, double volume, const ShellSamplerOptions& o) {
   if (o.layers < 1 || o.count < 1) return "the numbers of particles and layers must be at least 1";
+  if (o.count < o.layers)
+    return std::to_string(o.count) + " particles cannot be stacked in " + std::to_string(o.layers) +
+           " layers";
   if (o.count % o.layers != 0)
     return std::to_string(o.count) + " particles cannot be stacked in columns of " +
            std::to_string(o.layers) + "; " + std::to_string(o.count - o.count % o.layers) + " or " +

@@ -148,7 +148,9 @@ std::string summary(const Findings& findings, const std::function<bool(SurfaceFa
     else
       ++more;
   }
-  return more ? text + " (and " + std::to_string(more) + " more findings)" : text;
+  if (more == 0) return text;
+  return text + " (and " + std::to_string(more) +
+         (more == 1 ? " more finding)" : " more findings)");
 }
 
 bool enclosesNothing(SurfaceFault f) {

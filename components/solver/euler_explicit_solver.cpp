@@ -2,6 +2,7 @@
 #include "components/solver/euler_explicit_solver.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "components/solver/start_checks.h"
@@ -13,8 +14,9 @@ namespace {
 
 // Estimates approach the eigenvalue from below, and tissue stiffens between them.
 constexpr double safety = 0.9;
-// Products that an estimate may take; few when it only serves a warning.
-constexpr int iterations = 100, iterationsToWarn = 20;
+// Products that the first estimate may take, one that only serves a warning, and one that goes on
+// from the mode found before.
+constexpr int iterationsAtStart = 100, iterationsToWarn = 20, iterationsToFollow = 8;
 
 }  // namespace
 
@@ -25,13 +27,11 @@ void EulerExplicitSolver::start() {
   heldForce_.resize(s.projectors().size());
   s.project(s.v());
   const double dt = scene().dt();
-  estimate(scene().time(), dt);
+  estimate(scene().time(), dt, iterationsAtStart);
   if (substeps > 0 && dt / substeps > stableStep) {
     warning("substeps-unstable",
-            "sub-steps of " + std::to_string(dt / substeps) +
-                " s are longer than the largest stable "
-                "one, about " +
-                std::to_string(stableStep.value()) + " s",
+            "sub-steps of " + ValueTraits<double>::print(dt / substeps) +
+                " s are longer than the largest stable one, about " + rounded(stableStep) + " s",
             "leave 'substeps' out, or give at least " +
                 std::to_string(static_cast<int>(std::ceil(dt / (safety * stableStep)))));
   }
@@ -41,10 +41,10 @@ void EulerExplicitSolver::reset() {
   stability_.forget();
   substepChanges.set(0);
   system().project(system().v());
-  estimate(scene().time(), scene().dt());
+  estimate(scene().time(), scene().dt(), iterationsAtStart);
 }
 
-void EulerExplicitSolver::estimate(double time, double dt) {
+void EulerExplicitSolver::estimate(double time, double dt, int iterations) {
   System& s = system();
   s.linearize({s.x(), s.v(), time});
   stability_.update(s, rayleighMass, rayleighStiffness,
@@ -63,7 +63,7 @@ void EulerExplicitSolver::integrate(const StepContext& step) {
   if (substeps == 0 && step.step > 1 &&
       (step.step - 1) % static_cast<std::uint64_t>(estimateEvery) == 0) {
     const int before = currentSubsteps;
-    estimate(step.time, step.dt);
+    estimate(step.time, step.dt, iterationsToFollow);
     if (currentSubsteps != before) substepChanges.set(substepChanges + 1);
   }
   const double h = step.dt / currentSubsteps;

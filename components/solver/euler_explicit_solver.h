@@ -50,7 +50,7 @@ class EulerExplicitSolver final : public Integrator {
   void integrate(const StepContext& step) override;
 
  private:
-  void estimate(double time, double dt);
+  void estimate(double time, double dt, int iterations);
   void substep(double time, double h);
 
   Limiter capped_{this, "maxSubsteps",

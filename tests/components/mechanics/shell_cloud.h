@@ -18,22 +18,33 @@ inline Vec3 onSphere(double r, double theta, double phi) {
          Vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
 }
 
-// Polar mesh of the part theta <= maxTheta of a sphere; outward or, turned, inward.
+// Polar mesh of the part theta <= maxTheta of a sphere, the whole of it for pi; outward or, turned,
+// inward. The last nodes of a part are its rim.
 inline void addPolarCap(Cloud& cloud, double r, double maxTheta, int rings, int sectors,
                         bool inward) {
-  const auto first = static_cast<Index>(cloud.nodes.size());
+  const auto pole = static_cast<Index>(cloud.nodes.size());
+  const bool whole = maxTheta > 3.14;
+  const int last = whole ? rings - 1 : rings;  // ring that is no pole
   const auto add = [&](Index a, Index b, Index c) {
     cloud.triangles.push_back(inward ? Triangle{a, c, b} : Triangle{a, b, c});
   };
-  for (int i = 0; i <= rings; ++i)
+  cloud.nodes.emplace_back(0, 0, r);
+  for (int i = 1; i <= last; ++i)
     for (int j = 0; j < sectors; ++j)
       cloud.nodes.push_back(onSphere(r, maxTheta * i / rings, 2 * std::numbers::pi * j / sectors));
-  for (int i = 0; i < rings; ++i)
+  for (int i = 1; i <= last; ++i)
     for (int j = 0; j < sectors; ++j) {
-      const Index a = first + i * sectors + j, b = first + i * sectors + (j + 1) % sectors;
-      if (i > 0) add(a, b + sectors, b);
-      if (i < rings - 1 || maxTheta < 3.14) add(a, a + sectors, b + sectors);
+      const Index ring = pole + 1 + (i - 1) * sectors, next = (j + 1) % sectors;
+      if (i == 1) add(pole, ring + j, ring + next);
+      if (i == last) continue;
+      add(ring + j, ring + j + sectors, ring + next + sectors);
+      add(ring + j, ring + next + sectors, ring + next);
     }
+  if (!whole) return;
+  const auto south = static_cast<Index>(cloud.nodes.size());
+  cloud.nodes.emplace_back(0, 0, -r);
+  for (int j = 0; j < sectors; ++j)
+    add(south, south - sectors + (j + 1) % sectors, south - sectors + j);
 }
 
 // Scales the volumes so that they sum to what the surface mesh encloses.
