@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/sampling/particle_sampler.h"
 
+#include <algorithm>
+
 #include "components/sampling/lattice.h"
 #include "components/sampling/shell_sampler.h"
 #include "components/sampling/surface_check.h"
@@ -29,15 +31,13 @@ void ParticleSampler::bind() {
   closed_ = copyOf(*surface);
   if (const std::string problem = whyNotSheet(closed_.positions, closed_.triangles);
       !problem.empty()) {
-    error("sampler-surface", "cannot fill '" + surface->path() + "': " + problem);
-    return;
-  }
-  if (boundaryLoops(closed_.triangles).empty() &&
-      enclosedVolume(closed_.positions, closed_.triangles) < 0) {
-    error("sampler-surface",
-          "cannot fill '" + surface->path() +
-              "': it is turned inside out, its triangles face inwards",
-          "flipNormals=\"true\" on its loader turns them");
+    const auto isTurned = [](const SurfaceFinding& f) {
+      return f.fault == SurfaceFault::insideOut;
+    };
+    const bool turned =
+        std::ranges::any_of(checkSurface(closed_.positions, closed_.triangles), isTurned);
+    error("sampler-surface", "cannot fill '" + surface->path() + "': " + problem,
+          turned ? "flipNormals=\"true\" on its loader turns the triangles over" : "");
     return;
   }
   if (layout == ParticleLayout::shell)

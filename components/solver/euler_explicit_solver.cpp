@@ -18,6 +18,11 @@ constexpr double safety = 0.9;
 // from the mode found before.
 constexpr int iterationsAtStart = 100, iterationsToWarn = 20, iterationsToFollow = 8;
 
+std::string rounded(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 2).ptr};
+}
+
 }  // namespace
 
 void EulerExplicitSolver::start() {

@@ -134,6 +134,9 @@ struct Broken {
 
 TEST(BrokenMesh, isExplainedAndNeverCrashes) {
   const std::string point = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const std::string points =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n";
   const std::vector<Broken> meshes{
       {"empty", MeshFormat::obj, "", "the file is empty", 0},
       {"no faces", MeshFormat::obj, point, "no", 0},
@@ -147,18 +150,34 @@ TEST(BrokenMesh, isExplainedAndNeverCrashes) {
       {"missing normal", MeshFormat::obj, point + "f 1//1 2//1 3//1\n", "names no normal", 4},
       {"face of two", MeshFormat::obj, point + "f 1 2\n", "has 2 points", 4},
       {"huge index", MeshFormat::obj, point + "f 1 2 99999999999999999999\n", "is no index", 4},
-      {"binary noise", MeshFormat::ply, std::string(500, '\x7f'), "not understood", 0},
+      {"binary noise", MeshFormat::ply, std::string(500, '\x7f'), "not understood", 1},
       {"huge promise", MeshFormat::ply,
        "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n0\n",
-       "promises more", 0},
+       "ends after 1 of 4000000000", 0},
       {"cut header", MeshFormat::ply, "ply\nformat ascii 1.0\nelement vertex 3\n", "no end", 0},
       {"index out of range", MeshFormat::ply,
        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
        "float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 "
        "0\n0 1 0\n3 0 1 7\n",
        "uses point 7", 0},
-      {"cut binary", MeshFormat::stl, std::string(80, ' ') + std::string("\x05\0\0\0", 4), "", 0},
-      {"no solid", MeshFormat::stl, "solid nothing\nendsolid\n", "", 0},
+      {"nothing per element", MeshFormat::ply,
+       "ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n", "no properties", 0},
+      {"letter in text", MeshFormat::ply, points + "0 0 0\n1 O 0\n0 1 0\n", "'O' is not a number",
+       9},
+      {"short line", MeshFormat::ply, points + "0 0 0\n1 0\n0 1 0\n", "too few numbers", 9},
+      {"long line", MeshFormat::ply, points + "0 0 0 0\n1 0\n0 1 0\n", "too many numbers", 8},
+      {"cut text", MeshFormat::ply, points + "0 0 0\n1 0 0\n", "ends after 2 of 3 elements", 0},
+      {"cut binary", MeshFormat::stl, std::string(80, ' ') + std::string("\x05\0\0\0", 4),
+       "has 334 bytes, this one 84", 0},
+      {"no solid", MeshFormat::stl, "solid nothing\nendsolid\n", "no triangles", 0},
+      {"letter", MeshFormat::stl, "solid s\nfacet normal 0 0 1\nvertex 0 0 O\n",
+       "'O' is not a number", 3},
+      {"two vertices", MeshFormat::stl,
+       "solid s\nfacet normal 0 0 1\nvertex 0 0 0\nvertex 1 0 0\nendfacet\nendsolid\n",
+       "has 2 vertices", 5},
+      {"cut facet", MeshFormat::stl, "solid s\nfacet normal 0 0 1\nvertex 0 0 0\n",
+       "ends inside a facet", 0},
+      {"letter to the editor", MeshFormat::stl, "dear sir\n", "no STL file", 0},
   };
   for (const Broken& broken : meshes) {
     const MeshData mesh = parseMesh(broken.text, broken.format);
