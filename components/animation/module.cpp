@@ -11,5 +11,5 @@ PLUGIN(animation, "0.1.0", "Apache-2.0", "How often the parts of a step run.")
   registry.add<stroma::MultiRateAnimationLoop>("MultiRateAnimationLoop")
       .doc("Makes haptic calls several times a step and visual ones at a lower rate.")
       .domain("Rates are met exactly in simulated time, whatever the time step.")
-      .example("tests/scenes/multi_rate.xml");
+      .example("scenes/tutorials/elastic_support.xml");
 }

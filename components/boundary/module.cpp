@@ -18,19 +18,19 @@ PLUGIN(boundary, "0.1.0", "Apache-2.0", "Supports and loads.")
   registry.add<PartialFixedProjectiveConstraint>("PartialFixedProjectiveConstraint")
       .doc("Holds particles along chosen coordinate axes.")
       .domain("Exact along the axes. Verified by unit tests.")
-      .example("scenes/cornea/pull.xml");
+      .example("scenes/tutorials/stretch_block.xml");
   registry.add<FixedPlaneProjectiveConstraint>("FixedPlaneProjectiveConstraint")
       .doc("Keeps particles in their plane across a direction; they may slide in it.")
       .domain("Exact up to rounding for directions off the axes. Verified by unit tests.")
-      .example("scenes/cornea/pull.xml");
+      .example("scenes/tutorials/stretch_block.xml");
   registry.add<RestShapeSpringsForceField>("RestShapeSpringsForceField")
       .doc("Springs between particles and their rest positions: an elastic support.")
       .domain("Linear springs without rotation. Force and derivative verified against the energy.")
-      .example("scenes/cornea/pull.xml");
+      .example("scenes/tutorials/elastic_support.xml");
   registry.add<ConstantForceField>("ConstantForceField")
       .doc("Constant forces on particles.")
       .domain("Dead loads. Force verified against the energy.")
-      .example("scenes/cornea/push.xml");
+      .example("scenes/tutorials/elastic_support.xml");
   registry.add<SurfacePressureForceField>("SurfacePressureForceField")
       .doc("Pressure on the current triangles of a surface; positive pushes along their normals.")
       .domain(
@@ -42,7 +42,7 @@ PLUGIN(boundary, "0.1.0", "Apache-2.0", "Supports and loads.")
       .doc("Force per rest area on the triangles of a surface, or the load of a uniform stress.")
       .domain(
           "Dead loads. The total force and moment of a uniform stress vanish on closed surfaces.")
-      .example("scenes/cornea/push.xml");
+      .example("scenes/tutorials/stretch_block.xml");
   registry.add<GripForceField>("GripForceField")
       .doc("Pulls nodes by springs along a path given by key times and displacements.")
       .domain("Linear springs to moving points. Force and derivative verified against the energy.")
@@ -50,5 +50,5 @@ PLUGIN(boundary, "0.1.0", "Apache-2.0", "Supports and loads.")
   registry.add<UniformVelocityDampingForceField>("UniformVelocityDampingForceField")
       .doc("A force against the velocity of every particle.")
       .domain("Linear drag. Verified against its derivative.")
-      .example("scenes/cornea/pull.xml");
+      .example("scenes/tutorials/elastic_support.xml");
 }

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "components/io/mesh_subdivision.h"
 #include "core/scene.h"
 
 namespace stroma {
@@ -48,8 +49,13 @@ void MeshLoader::bind() {
       blemishes_.push_back(std::move(remark));
     }
   }
+  if (subdivisions > 0 && !mesh.quads.empty()) {
+    error(subdivisions, "attr-conflict", "needs triangles, and the mesh has quads",
+          "leave triangulate at true");
+  }
   if (failed()) return;
   transform(mesh);
+  for (int level = 0; level < subdivisions; ++level) subdivide(mesh);
   const std::string size = sizeRemark(mesh.positions);
   if (!size.empty()) {
     warning("mesh-size", file->string() + ": " + size,

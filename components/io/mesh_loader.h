@@ -24,6 +24,13 @@ class MeshLoader : public Mesh {
       this, "scale", 1.0, "Scaling, applied first.", {.min = 0, .exclusiveMin = true}};
   Attribute<Vec3> scale3d{this, "scale3d", Vec3::Ones(), "Scaling along each axis, times scale."};
   Attribute<bool> flipNormals{this, "flipNormals", false, "Turns every face over."};
+  Attribute<int> subdivisions{
+      this,
+      "subdivisions",
+      0,
+      "How often every triangle is split into four: loads on a surface want "
+      "triangles no larger than the particles' spacing.",
+      {.min = 0, .max = 8}};
   Attribute<bool> triangulate{this, "triangulate", true,
                               "Splits quads and polygons into triangles."};
 

@@ -66,7 +66,9 @@ class Monitor final : public Recorder {
   Attribute<Part> component{this, "component", Part::norm, "Which part of vectors."};
   Attribute<Reduction> reduce{this, "reduce", Reduction::mean, "How particles become one value."};
   Attribute<IndexList> indices{this, "indices", {}, "Particles, all if not given."};
-  Attribute<double> since{this, "since", 0.0,
+  Attribute<double> since{this,
+                          "since",
+                          0.0,
                           "Displacements count from where the particles are at this time, and are "
                           "zero before; not given = from the rest positions.",
                           {.unit = "s", .min = 0}};

@@ -7,7 +7,7 @@ PLUGIN(mass, "0.1.0", "Apache-2.0", "Lumped masses.")
 (stroma::Registry& registry) {
   registry.add<stroma::UniformMass>("UniformMass")
       .doc("The same mass for every particle.")
-      .example("tests/scenes/free_fall.xml");
+      .example("scenes/tutorials/elastic_support.xml");
   registry.add<stroma::DiagonalMass>("DiagonalMass")
       .doc("Mass of each particle from a density and the volume it stands for.")
       .example("scenes/cornea/pull.xml");

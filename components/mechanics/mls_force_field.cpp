@@ -132,10 +132,10 @@ bool MLSForceField::findSupports() {
 }
 
 void MLSForceField::makeGradientsConsistent() {
-  const SurfaceView closed = surface    ? SurfaceView{surface->positions(), surface->triangles()}
-                             : topology ? topology->enclosingSurface()
-                                        : SurfaceView{};
-  if (closed.triangles.empty()) {
+  closed_ = surface    ? SurfaceView{surface->positions(), surface->triangles()}
+            : topology ? topology->enclosingSurface()
+                       : SurfaceView{};
+  if (closed_.triangles.empty()) {
     error(gradient, "gradient-surface",
           "=\"consistent\" needs the closed surface around the particles",
           "use a ParticleSampler, or give surface=\"@mesh\"");
@@ -143,17 +143,18 @@ void MLSForceField::makeGradientsConsistent() {
   }
   plainGradients_ = gradients_;
   // loads on the surface's nodes travel through the same shape functions: tractions are then exact
-  const SurfaceShape shape = shapeOf(closed.positions, closed.triangles, surfaceSupport);
-  std::vector<Vec3> areas(closed.positions.size(), Vec3::Zero());
-  for (const Triangle& t : closed.triangles) {
-    const auto& p = closed.positions;
-    const Vec3 area =
-        0.5 * (p[static_cast<std::size_t>(t[1])] - p[static_cast<std::size_t>(t[0])])
-                  .cross(p[static_cast<std::size_t>(t[2])] - p[static_cast<std::size_t>(t[0])]);
+  boundaryShape_ = shapeOf(closed_.positions, closed_.triangles, surfaceSupport);
+  std::vector<Vec3> areas(closed_.positions.size(), Vec3::Zero());
+  for (const Triangle& t : closed_.triangles) {
+    const auto corner = [&](int k) -> const Vec3& {
+      return closed_.positions[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
+    };
+    const Vec3 area = 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0));
     for (const Index node : t) areas[static_cast<std::size_t>(node)] += area / 3;
   }
+  warnOfCoarseSurface();
   std::vector<Vec3> boundary(mechanicalState->rest().size(), Vec3::Zero());
-  shape.addTransposed(areas, boundary);
+  boundaryShape_->addTransposed(areas, boundary);
   ProjectionOptions options;
   options.iterations = projectionIterations;
   options.exact = projectionIterations == 0;
@@ -169,6 +170,25 @@ void MLSForceField::makeGradientsConsistent() {
                                    ValueTraits<double>::print(100 * projection_->volumeMismatch) +
                                    " %: the consistent gradient cannot be exact");
   }
+}
+
+void MLSForceField::warnOfCoarseSurface() {
+  double area = 0;
+  for (const Triangle& t : closed_.triangles) {
+    const auto corner = [&](int k) -> const Vec3& {
+      return closed_.positions[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
+    };
+    area += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+  }
+  // edge of the equilateral triangle of mean area
+  const double edge =
+      std::sqrt(4 / std::sqrt(3.0) * area / static_cast<double>(closed_.triangles.size()));
+  if (edge <= 2 * particleSpacing()) return;
+  warning("surface-coarse",
+          "the surface's triangles are " +
+              ValueTraits<double>::print(std::round(10 * edge / particleSpacing()) / 10) +
+              " particle spacings wide: loads are spread too widely, and bending suffers",
+          "subdivide the mesh (subdivisions=\"1\" at its loader)");
 }
 
 void MLSForceField::reportRanks() {
@@ -256,14 +276,22 @@ void MLSForceField::addTangent(BlockMatrix& matrix, Index offset, double stiffne
   law_->addTangent(matrix, offset, -stiffness);
 }
 
-SurfaceShape MLSForceField::shapeOf(ConstVec3Span points, std::span<const Triangle> triangles,
-                                    Index supports) const {
+std::shared_ptr<const SurfaceShape> MLSForceField::shapeOf(ConstVec3Span points,
+                                                           std::span<const Triangle> triangles,
+                                                           Index supports) const {
+  if (boundaryShape_ && supports == surfaceSupport &&
+      std::ranges::equal(points, closed_.positions) &&
+      std::ranges::equal(triangles, closed_.triangles)) {
+    return boundaryShape_;
+  }
   const Gradients& gradients = plainGradients_.values.empty() ? gradients_ : plainGradients_;
   const ConstVec3Span X = mechanicalState->rest();
-  if (triangles.empty()) return SurfaceShape(X, neighbourhoods_, gradients, points, supports);
+  if (triangles.empty()) {
+    return std::make_shared<SurfaceShape>(X, neighbourhoods_, gradients, points, supports);
+  }
   // samples half a particle spacing apart integrate the shape functions well
-  return SurfaceShape::ofSurface(X, neighbourhoods_, gradients, points, triangles, supports,
-                                 0.5 * particleSpacing());
+  return std::make_shared<SurfaceShape>(SurfaceShape::ofSurface(
+      X, neighbourhoods_, gradients, points, triangles, supports, 0.5 * particleSpacing()));
 }
 
 double MLSForceField::particleSpacing() const {

@@ -107,7 +107,7 @@ class MLSForceField final : public ForceField {
   Attribute<int> projectionIterations{
       this,
       "projectionIterations",
-      4,
+      8,
       "Iterations that make the gradients consistent; 0 solves exactly.",
       {.min = 0}};
   Attribute<double> zeroEnergyControl{this,
@@ -192,8 +192,9 @@ class MLSForceField final : public ForceField {
   [[nodiscard]] const MlsBonds& bonds() const { return *bonds_; }
   // Shape functions of surface points, the ones that the consistent gradient's boundary term uses.
   // Without triangles the points stand alone.
-  [[nodiscard]] SurfaceShape shapeOf(ConstVec3Span points, std::span<const Triangle> triangles,
-                                     Index supports) const;
+  [[nodiscard]] std::shared_ptr<const SurfaceShape> shapeOf(ConstVec3Span points,
+                                                            std::span<const Triangle> triangles,
+                                                            Index supports) const;
   [[nodiscard]] const RankReport& rankReport() const { return gradients_.report; }
   [[nodiscard]] const std::optional<ProjectionReport>& projectionReport() const {
     return projection_;
@@ -208,6 +209,7 @@ class MLSForceField final : public ForceField {
   [[nodiscard]] bool readVolumes();
   [[nodiscard]] bool findSupports();
   void makeGradientsConsistent();
+  void warnOfCoarseSurface();
   void reportRanks();
   void buildBonds();
   [[nodiscard]] std::unique_ptr<Law> makeLaw() const;
@@ -218,6 +220,8 @@ class MLSForceField final : public ForceField {
   TransposedRows transposed_;
   Gradients gradients_;       // the ones forces use
   Gradients plainGradients_;  // those of the shape functions, when they differ
+  SurfaceView closed_{};      // the surface of the boundary term, and its shape functions
+  std::shared_ptr<const SurfaceShape> boundaryShape_;
   std::optional<ProjectionReport> projection_;
   std::unique_ptr<MlsBonds> bonds_;
   std::unique_ptr<Law> law_;

@@ -15,15 +15,15 @@ void MLSMapping::bind() {
 }
 
 void MLSMapping::apply(ConstVec3Span particles, Vec3Span points) const {
-  shape_.apply(particles, points);
+  shape_->apply(particles, points);
 }
 
 void MLSMapping::applyJ(ConstVec3Span particles, Vec3Span points) const {
-  shape_.apply(particles, points);
+  shape_->apply(particles, points);
 }
 
 void MLSMapping::addTransposed(ConstVec3Span points, Vec3Span particles) const {
-  shape_.addTransposed(points, particles);
+  shape_->addTransposed(points, particles);
 }
 
 }  // namespace stroma

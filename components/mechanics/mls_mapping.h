@@ -35,10 +35,10 @@ class MLSMapping final : public Mapping {
   void applyJ(ConstVec3Span particles, Vec3Span points) const override;
   void addTransposed(ConstVec3Span points, Vec3Span particles) const override;
 
-  [[nodiscard]] const SurfaceShape& shape() const { return shape_; }
+  [[nodiscard]] const SurfaceShape& shape() const { return *shape_; }
 
  private:
-  SurfaceShape shape_;
+  std::shared_ptr<const SurfaceShape> shape_;
 };
 
 }  // namespace stroma

@@ -52,11 +52,19 @@ class RowBuilder {
   std::vector<Index> touched_;
 };
 
-// Weighted sums of the first-order extrapolations of the particles near a point.
+// One particle's share in a shape function: weight of its position, and the arm along which its
+// gradient extrapolates.
+struct Share {
+  Index carrier;
+  double weight;
+  Vec3 arm;
+};
+
+// Finds the particles that carry a point, and adds up the extrapolations of carriers into rows.
 class Extrapolator {
  public:
   Extrapolator(ConstVec3Span X, const Neighbourhoods& n, const Gradients& gradients, Index supports)
-      : X_(X), n_(n), gradients_(gradients), row_(X.size()) {
+      : X_(X), n_(n), gradients_(gradients), row_(X.size()), weight_(X.size(), 0), arm_(X.size()) {
     if (supports < 1) throw std::invalid_argument("a surface point needs at least one support");
     if (X.empty()) throw std::invalid_argument("no particles to support the surface");
     const bool anyWhole = std::ranges::find(gradients.rank, 3) != gradients.rank.end();
@@ -72,33 +80,53 @@ class Extrapolator {
     weights_.resize(count);
   }
 
-  // Adds factor phi(point); from the sum of the points' own extrapolations to `shift` beyond.
-  void add(const Vec3& point, double factor, const Vec3& shift = Vec3::Zero()) {
+  [[nodiscard]] std::size_t supports() const { return nearest_.size(); }
+
+  // The shares of the particles near a point, supports() of them.
+  void find(const Vec3& point, std::span<Share> shares) {
     tree_->nearest(point, nearest_, squared_);
     shepardWeights(squared_, n_.options.kernel, weights_);
     for (std::size_t k = 0; k < nearest_.size(); ++k) {
       const Index i = id_[nearest_[k]];
-      const double weight = factor * weights_[k];
-      addExtrapolation(i, weight, weight * (point - X_[i]) + weights_[k] * shift);
+      shares[k] = {i, weights_[k], weights_[k] * (point - X_[i])};
     }
   }
-  void flush(std::vector<ShapeEntry>& entries) { row_.flush(entries); }
+
+  // Adds factor times the shares, their extrapolations going on by `shift`.
+  void add(std::span<const Share> shares, double factor, const Vec3& shift) {
+    for (const Share& share : shares) {
+      if (weight_[share.carrier] == 0) {
+        touched_.push_back(share.carrier);
+        arm_[share.carrier].setZero();
+      }
+      weight_[share.carrier] += factor * share.weight;
+      arm_[share.carrier] += factor * (share.arm + share.weight * shift);
+    }
+  }
+  // Writes what was added as one row.
+  void flush(std::vector<ShapeEntry>& entries) {
+    for (const Index i : touched_) {
+      double own = weight_[i];
+      for (Index slot = n_.rows[i].begin; slot < n_.rows[i].begin + n_.rows[i].size; ++slot) {
+        const double part = gradients_.values[slot].dot(arm_[i]);
+        row_.add(n_.neighbours[slot], part);
+        own -= part;
+      }
+      row_.add(i, own);
+      weight_[i] = 0;
+    }
+    touched_.clear();
+    row_.flush(entries);
+  }
 
  private:
-  void addExtrapolation(Index i, double weight, const Vec3& arm) {
-    double own = weight;
-    for (Index slot = n_.rows[i].begin; slot < n_.rows[i].begin + n_.rows[i].size; ++slot) {
-      const double part = gradients_.values[slot].dot(arm);
-      row_.add(n_.neighbours[slot], part);
-      own -= part;
-    }
-    row_.add(i, own);
-  }
-
   ConstVec3Span X_;
   const Neighbourhoods& n_;
   const Gradients& gradients_;
   RowBuilder row_;
+  std::vector<double> weight_;  // of the carriers in the row being made
+  std::vector<Vec3> arm_;
+  std::vector<Index> touched_;
   std::vector<Vec3> carriers_;  // the tree's points
   std::vector<Index> id_;       // and the particles they are
   std::optional<PointTree> tree_;
@@ -111,8 +139,10 @@ class Extrapolator {
 SurfaceShape::SurfaceShape(ConstVec3Span X, const Neighbourhoods& n, const Gradients& gradients,
                            ConstVec3Span points, Index supports) {
   Extrapolator phi(X, n, gradients, supports);
+  std::vector<Share> shares(phi.supports());
   for (const Vec3& s : points) {
-    phi.add(s, 1);
+    phi.find(s, shares);
+    phi.add(shares, 1, Vec3::Zero());
     phi.flush(entries_);
     begin_.push_back(static_cast<Index>(entries_.size()));
   }
@@ -124,33 +154,37 @@ SurfaceShape SurfaceShape::ofSurface(ConstVec3Span X, const Neighbourhoods& n,
                                      std::span<const Triangle> triangles, Index supports,
                                      double maxEdge) {
   const std::vector<SurfaceSample> samples = sampleSurface(nodes, triangles, maxEdge);
-  struct Share {
-    std::size_t sample;
-    double weight;  // area of the sample that belongs to the node
+  Extrapolator phi(X, n, gradients, supports);
+  std::vector<Share> shares((samples.size() + 1) * phi.supports());
+  const auto sharesOf = [&](std::size_t sample) {
+    return std::span(shares).subspan(sample * phi.supports(), phi.supports());
   };
-  std::vector<std::vector<Share>> shares(nodes.size());
-  for (std::size_t s = 0; s < samples.size(); ++s)
+  struct Part {
+    std::size_t sample;
+    double area;  // of the sample, that belongs to the node
+  };
+  std::vector<std::vector<Part>> parts(nodes.size());
+  for (std::size_t s = 0; s < samples.size(); ++s) {
+    phi.find(samples[s].position, sharesOf(s));
     for (int corner = 0; corner < 3; ++corner)
-      shares[triangles[samples[s].triangle][corner]].push_back(
+      parts[triangles[samples[s].triangle][corner]].push_back(
           {s, samples[s].barycentric[corner] * samples[s].area.norm()});
+  }
 
   SurfaceShape shape;
-  Extrapolator phi(X, n, gradients, supports);
   for (std::size_t node = 0; node < nodes.size(); ++node) {
     double area = 0;
     Vec3 mean = Vec3::Zero();
-    for (const Share& share : shares[node]) {
-      area += share.weight;
-      mean += share.weight * samples[share.sample].position;
+    for (const Part& part : parts[node]) {
+      area += part.area;
+      mean += part.area * samples[part.sample].position;
     }
     if (area > 0) {
       const Vec3 shift = nodes[node] - mean / area;
-      for (const Share& share : shares[node]) {
-        const double part = share.weight / area;
-        phi.add(samples[share.sample].position, part, part * shift);
-      }
+      for (const Part& part : parts[node]) phi.add(sharesOf(part.sample), part.area / area, shift);
     } else {
-      phi.add(nodes[node], 1);
+      phi.find(nodes[node], sharesOf(samples.size()));
+      phi.add(sharesOf(samples.size()), 1, Vec3::Zero());
     }
     phi.flush(shape.entries_);
     shape.begin_.push_back(static_cast<Index>(shape.entries_.size()));

@@ -28,11 +28,11 @@ PLUGIN(solver, "0.1.0", "Apache-2.0", "Time integration, static equilibrium, lin
       .domain(
           "Bodies held against rigid motion; finds a minimum of the energy, not points beyond "
           "buckling. Verified on nonlinear springs.")
-      .example("scenes/cornea/inflate.xml");
+      .example("scenes/tutorials/stretch_block.xml");
   registry.add<CGLinearSolver>("CGLinearSolver")
       .doc("Conjugate gradients without a matrix, to a relative residual.")
       .domain("Symmetric positive definite systems. Verified against dense solves.")
-      .example("scenes/paper/cornea.xml");
+      .example("scenes/tutorials/elastic_support.xml");
   registry.add<SparseLDLSolver>("SparseLDLSolver")
       .doc("Sparse factors of the assembled matrix, kept over steps while they still converge.")
       .domain(

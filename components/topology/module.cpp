@@ -21,7 +21,7 @@ PLUGIN(topology, "0.1.0", "Apache-2.0", "Meshes, grids and selections.")
       .example("scenes/beam/fixbeam_E10000.xml");
   registry.add<stroma::BoxRoi>("BoxROI")
       .doc("Selects points and elements by boxes.")
-      .example("scenes/cornea/pull.xml");
+      .example("scenes/tutorials/elastic_support.xml");
   registry.add<stroma::SphereRoi>("SphereROI")
       .doc("Selects points and elements by balls.")
       .example("scenes/cornea/pull.xml");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shipped scenes through the real loader: they load without a remark, do what they say, call for nothing
-// else, and give the same bits at any thread count and after a resumption.
+// The shipped scenes through the real loader: they load without a remark, do what they say, call
+// for nothing else, and give the same bits at any thread count and after a resumption.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,11 +63,13 @@ TEST_P(ShippedScene, loadsWithoutRemarkAndRuns) {
   advance(*scene, 3);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::ValuesIn(shippedScenes()), [](const auto& test) {
-  std::string name = test.param;
-  std::ranges::replace_if(name, [](unsigned char c) { return !std::isalnum(c); }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::ValuesIn(shippedScenes()),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::ranges::replace_if(
+                               name, [](unsigned char c) { return !std::isalnum(c); }, '_');
+                           return name;
+                         });
 
 TEST(CorneaPull, apexFollowsTheGripAndTheRimStays) {
   for (const double scale : {1.0, -1.0}) {
@@ -80,7 +82,8 @@ TEST(CorneaPull, apexFollowsTheGripAndTheRimStays) {
 
 TEST(CorneaPull, callsForNothingElse) {
   const auto scene = start("cornea/pull.xml");
-  const std::set<std::string> loaded(scene->modules().loaded().begin(), scene->modules().loaded().end());
+  const std::set<std::string> loaded(scene->modules().loaded().begin(),
+                                     scene->modules().loaded().end());
   const std::set<std::string> wanted = {"animation", "boundary", "io",    "mass",    "mechanics",
                                         "sampling",  "solver",   "state", "topology"};
   EXPECT_EQ(loaded, wanted);

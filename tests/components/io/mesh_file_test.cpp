@@ -137,6 +137,7 @@ TEST(BrokenMesh, isExplainedAndNeverCrashes) {
   const std::string points =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
       "property float z\nend_header\n";
+  const std::string facet = "solid s\nfacet normal 0 0 1\nouter loop\n";
   const std::vector<Broken> meshes{
       {"empty", MeshFormat::obj, "", "the file is empty", 0},
       {"no faces", MeshFormat::obj, point, "no", 0},
@@ -170,13 +171,15 @@ TEST(BrokenMesh, isExplainedAndNeverCrashes) {
       {"cut binary", MeshFormat::stl, std::string(80, ' ') + std::string("\x05\0\0\0", 4),
        "has 334 bytes, this one 84", 0},
       {"no solid", MeshFormat::stl, "solid nothing\nendsolid\n", "no triangles", 0},
-      {"letter", MeshFormat::stl, "solid s\nfacet normal 0 0 1\nvertex 0 0 O\n",
-       "'O' is not a number", 3},
-      {"two vertices", MeshFormat::stl,
-       "solid s\nfacet normal 0 0 1\nvertex 0 0 0\nvertex 1 0 0\nendfacet\nendsolid\n",
-       "has 2 vertices", 5},
-      {"cut facet", MeshFormat::stl, "solid s\nfacet normal 0 0 1\nvertex 0 0 0\n",
-       "ends inside a facet", 0},
+      {"letter", MeshFormat::stl, facet + "vertex 0 0 O\n", "'O' is not a number", 4},
+      {"two vertices", MeshFormat::stl, facet + "vertex 0 0 0\nvertex 1 0 0\nendloop\n",
+       "expected 'vertex', got 'endloop'", 6},
+      {"cut facet", MeshFormat::stl, facet + "vertex 0 0 0\n", "ends inside a facet", 0},
+      {"no end", MeshFormat::stl,
+       facet + "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n",
+       "without 'endsolid'", 0},
+      {"bytes in a text", MeshFormat::stl, facet + std::string("vertex 0\0 0 0\n", 14),
+       "no STL file", 0},
       {"letter to the editor", MeshFormat::stl, "dear sir\n", "no STL file", 0},
   };
   for (const Broken& broken : meshes) {
