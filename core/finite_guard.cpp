@@ -32,29 +32,30 @@ std::string number(double value) {
 }  // namespace
 
 FiniteGuard::FiniteGuard(System& system) : system_(&system), keeps_(system.size() <= mostKept) {
+  if (keeps_) {
+    x_.resize(static_cast<std::size_t>(system.size()));
+    v_.resize(static_cast<std::size_t>(system.size()));
+  }
   accept();
 }
 
 void FiniteGuard::accept() {
   if (!keeps_) return;
-  x_.assign(system_->x().begin(), system_->x().end());
-  v_.assign(system_->v().begin(), system_->v().end());
+  flat(Vec3Span(x_)) = flat(system_->x());
+  flat(Vec3Span(v_)) = flat(system_->v());
 }
 
 bool FiniteGuard::restoreLastGood() {
   if (!keeps_) return false;
   std::ranges::copy(x_, system_->x().begin());
   std::ranges::copy(v_, system_->v().begin());
+  std::ranges::fill(system_->f(), Vec3::Zero());  // those of the failed step mean nothing
   system_->updateMapped();
   return true;
 }
 
 std::optional<Divergence> FiniteGuard::check(std::uint64_t step, double time, double dt) {
   if (!allFinite(system_->x()) || !allFinite(system_->v())) return explain(step, time, dt);
-  if (keeps_) {
-    flat(Vec3Span(x_)) = flat(system_->x());
-    flat(Vec3Span(v_)) = flat(system_->v());
-  }
   return std::nullopt;
 }
 

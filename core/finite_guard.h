@@ -23,12 +23,12 @@ class FiniteGuard {
  public:
   explicit FiniteGuard(System& system);
 
-  // Checks positions and velocities after a step; one pass. While all are finite they are kept as the
-  // last good state (for systems of up to 200,000 particles; larger ones keep only the check).
+  // Checks positions and velocities after a step.
   [[nodiscard]] std::optional<Divergence> check(std::uint64_t step, double time, double dt);
   // Puts the last good state back where one is kept.
   bool restoreLastGood();
-  // The state was changed from outside (restored, reset): it is good.
+  // Keeps the present state as the last good one (systems of up to 200,000 particles; larger ones are
+  // only checked).
   void accept();
 
  private:

@@ -170,10 +170,16 @@ bool ModuleIndex::load(const ModuleManifest& wanted, Registry& registry, std::st
   const PluginDescriptor* descriptor = loadPlugin(wanted.library, problem);
   if (!descriptor) return false;
   registry.setOrigin(wanted.name);
+  const std::size_t conflicts = registry.conflicts().size();
   try {
     descriptor->registerComponents(registry);
   } catch (const std::exception& e) {
     problem = "plugin '" + wanted.name + "' failed to register its components: " + e.what();
+    return false;
+  }
+  if (registry.conflicts().size() > conflicts) {
+    problem = "plugin '" + wanted.name + "' registers a component that exists already: " +
+              registry.conflicts().back();
     return false;
   }
   loaded_.push_back(wanted.name);

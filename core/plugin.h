@@ -22,8 +22,10 @@
 #else
 #define STROMA_COMPILER "gcc"
 #endif
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__)
 #define STROMA_SANITIZER "/asan"
+#elif defined(__SANITIZE_THREAD__)
+#define STROMA_SANITIZER "/tsan"
 #else
 #define STROMA_SANITIZER ""
 #endif

@@ -30,7 +30,18 @@ std::uint64_t hashElement(const SceneElement& element, std::uint64_t hash) {
     add(a.value);
   }
   for (const SceneElement& child : element.children) hash = hashElement(child, hash);
+  add("/");  // the end of the element: the same children elsewhere are another scene
   return hash;
+}
+
+// A library's exception in a component's hook becomes an error at its element.
+template <class Hook>
+void guarded(Component& component, Hook&& hook) {
+  try {
+    hook();
+  } catch (const std::exception& e) {
+    component.error("component-failed", std::string("cannot be set up: ") + e.what());
+  }
 }
 
 }  // namespace
@@ -101,7 +112,7 @@ std::vector<Component*> Scene::dependencyOrder() {
 bool Scene::initialise() {
   if (diagnostics_.errorCount() > 0) return false;
   const std::vector<Component*> order = dependencyOrder();
-  for (Component* component : order) component->configure();
+  for (Component* component : order) guarded(*component, [&] { component->configure(); });
   for (Component* component : order) {
     // a failure below is reported once, where it is, not again by all that depends on it
     for (const LinkBase* link : component->links()) {
@@ -120,13 +131,13 @@ bool Scene::initialise() {
                          problem->hint);
       }
     }
-    if (!component->failed()) component->bind();
+    if (!component->failed()) guarded(*component, [&] { component->bind(); });
   }
   if (diagnostics_.errorCount() > 0) return false;
   compile();
   if (diagnostics_.errorCount() > 0) return false;
   running_ = true;
-  for (Component* component : order) component->start();
+  for (Component* component : order) guarded(*component, [&] { component->start(); });
   for (const auto& system : systems_) system->updateMapped();
   return diagnostics_.errorCount() == 0;
 }
@@ -155,7 +166,11 @@ void Scene::compile() {
     loops[i]->error("loop-second",
                     "a scene has one animation loop; there is '" + loops.front()->path() + "'");
   }
-  forEachComponent(*root_, [&](Component& c) { c.schedule(schedule_); });
+  // mappings in the order in which they depend on each other, everything else as it is written
+  for (const auto& system : systems_) system->scheduleMappings(schedule_);
+  forEachComponent(*root_, [&](Component& c) {
+    if (!dynamic_cast<Mapping*>(&c)) c.schedule(schedule_);
+  });
   for (int s = 0; s < stageCount; ++s) {
     for (const Schedule::Entry& e : schedule_.stage(static_cast<Stage>(s))) {
       profiler_.rows(s).push_back({std::string(stageName(static_cast<Stage>(s))),
@@ -194,6 +209,7 @@ bool Scene::step() {
       return false;
     }
   }
+  for (FiniteGuard& guard : guards_) guard.accept();
   profiler_.stage(static_cast<int>(Stage::Guard)).add(std::chrono::steady_clock::now() - guardBegin);
   step_ = next;
   run(Stage::Map);

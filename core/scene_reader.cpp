@@ -31,6 +31,13 @@ SourceRange within(const SourceRange& whole, const ParseError& error) {
   return range;
 }
 
+// Child nodes and components of that name.
+std::ptrdiff_t namesIn(const Node& node, const std::string& name) {
+  const auto named = [&](const auto& item) { return item->name() == name; };
+  return std::ranges::count_if(node.components(), named) +
+         std::ranges::count_if(node.children(), named);
+}
+
 bool truthy(const std::string& text) {
   bool value = true;
   return ValueTraits<bool>::parse(text, {}, value) || value;
@@ -39,10 +46,16 @@ bool truthy(const std::string& text) {
 }  // namespace
 
 // "Name", "Name2", ... whichever is free in the node.
+// Links find the first of two, and checkpoints could not tell them apart.
+void SceneReader::reportRepeatedName(const Node& node, const SceneAttribute& name) {
+  if (namesIn(node, name.value) < 2) return;
+  diagnostics_.error("name-repeated",
+                     "the name '" + name.value + "' is used twice in node '" + node.path() + "'",
+                     name.valueAt, "give each its own");
+}
+
 std::string SceneReader::freeName(const Node& node, const std::string& type) {
-  const auto taken = [&](const std::string& name) {
-    return std::ranges::any_of(node.components(), [&](const auto& c) { return c->name() == name; });
-  };
+  const auto taken = [&](const std::string& name) { return namesIn(node, name) > 0; };
   int& number = named_[{&node, type}];  // goes on where the last of the type stopped
   std::string name;
   do {
@@ -74,7 +87,8 @@ void SceneReader::read(const SceneElement& root, const std::vector<std::string>&
 void SceneReader::readNode(const SceneElement& element, Node& node, UnitSystem units) {
   node.setWhere(element.at);
   const SceneAttribute* name = element.find("name");
-  node.setName(name ? name->value : node.parent() ? "Node" : "root");
+  node.setName(name ? name->value : node.parent() ? freeName(*node.parent(), "Node") : "root");
+  if (name && node.parent()) reportRepeatedName(*node.parent(), *name);
   if (const SceneAttribute* system = element.find("units")) {
     if (const auto parsed = UnitSystem::parse(system->value)) {
       units = *parsed;
@@ -89,6 +103,14 @@ void SceneReader::readNode(const SceneElement& element, Node& node, UnitSystem u
     if (a.name == "name" || isComment(a.name) || sofa::isIgnoredNodeAttribute(a.name)) continue;
     if (AttributeBase* attribute = node.attribute(a.name)) {
       setValue(node, *attribute, a.value, a.valueAt, units);
+      const bool ofRoot = attribute == &node.dt || attribute == &node.time ||
+                          attribute == &node.duration;
+      if (ofRoot && node.parent()) {
+        diagnostics_.warning("attr-root-only",
+                             "Node '" + node.name() + "': '" + a.name +
+                                 "' is read from the root node only",
+                             a.nameAt);
+      }
     } else {
       const auto names = node.attributeAndLinkNames();
       strict("attr-unknown", "Node '" + node.name() + "': unknown attribute '" + a.name + "'",
@@ -166,13 +188,7 @@ void SceneReader::readComponent(const SceneElement& element, Node& node, const U
   component.setWhere(element.at);
   const SceneAttribute* name = element.find("name");
   component.setName(name ? name->value : freeName(node, entry->name));
-  const auto& all = node.components();
-  if (name && std::ranges::count_if(all, [&](const auto& c) { return c->name() == name->value; }) > 1) {
-    diagnostics_.warning("name-repeated",
-                         "the name '" + name->value + "' is used twice in node '" + node.path() +
-                             "': links find the first",
-                         name->valueAt);
-  }
+  if (name) reportRepeatedName(node, *name);
   for (const SceneAttribute& a : element.attributes) {
     if (a.name == "name" || a.name == "type" || isComment(a.name)) continue;
     if (a.name == "template") {
@@ -221,10 +237,12 @@ void SceneReader::readAttribute(Component& component, const SceneAttribute& a,
 void SceneReader::setValue(AttributeOwner& owner, AttributeBase& attribute, const std::string& text,
                            const SourceRange& at, const UnitSystem& units) {
   attribute.setWhere(at);
+  // what is written later (an override) replaces an earlier link
+  std::erase_if(pending_, [&](const PendingLink& p) { return p.attribute == &attribute; });
+  attribute.linkTo(nullptr);
   const std::size_t start = text.find_first_not_of(" \t\r\n");
   if (start != std::string::npos && text[start] == '@') {
     if (auto* component = dynamic_cast<Component*>(&owner)) {
-      std::erase_if(pending_, [&](const PendingLink& p) { return p.attribute == &attribute; });
       pending_.push_back({component, &attribute, text, at});
     } else {
       diagnostics_.error("link-node", owner.describe() + ": attributes of nodes cannot be links", at);
@@ -280,6 +298,11 @@ void SceneReader::override(const std::string& assignment) {
                   {std::string(parts.attribute), value,
                    {source, equals - parts.attribute.size(), parts.attribute.size()}, valueAt},
                   UnitSystem{});
+  } else if (parts.attribute == "activated" || parts.attribute == "units") {
+    diagnostics_.error("set-path",
+                       "'" + std::string(parts.attribute) +
+                           "' decides how the scene is read: it cannot be set afterwards",
+                       pathAt, "edit the scene");
   } else if (AttributeBase* attribute = target.node->attribute(parts.attribute)) {
     setValue(*target.node, *attribute, value, valueAt, UnitSystem{});
   } else {

@@ -44,6 +44,7 @@ class SceneReader {
   void resolveImplicit(Component& component, LinkBase& link);
   void resolvePending(const PendingLink& pending);
   [[nodiscard]] std::string freeName(const Node& node, const std::string& type);
+  void reportRepeatedName(const Node& node, const SceneAttribute& name);
   // All components that could play the role of the link, for messages.
   [[nodiscard]] std::string candidates(const LinkBase& link, const Component& self);
   // Unknown elements and attributes: errors, or warnings in lenient mode.

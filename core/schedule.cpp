@@ -11,10 +11,6 @@ std::string_view stageName(Stage stage) {
   return names[static_cast<std::size_t>(stage)];
 }
 
-void Schedule::clear() {
-  for (auto& entries : entries_) entries.clear();
-}
-
 void Schedule::run(Stage stage, const StepContext& context, bool visual, int hapticTicks,
                    Profiler& profiler) const {
   using Clock = std::chrono::steady_clock;

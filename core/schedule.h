@@ -57,7 +57,6 @@ class Schedule {
 
   // One line a call: stage, component, what it does, rate.
   [[nodiscard]] std::string text() const;
-  void clear();
 
  private:
   std::array<std::vector<Entry>, stageCount> entries_;

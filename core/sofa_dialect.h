@@ -10,7 +10,8 @@ namespace stroma::sofa {
 // Current name of a component that SOFA once called otherwise; the name itself when it is not renamed.
 [[nodiscard]] std::string_view currentName(std::string_view component);
 
-// Elements that only concern SOFA's display, GUI or collision-group book-keeping.
+// Elements that concern SOFA's display and book-keeping, or a split of its solvers that this one does not
+// have (constraint corrections).
 [[nodiscard]] bool isIgnoredElement(std::string_view component);
 
 // Attributes of nodes and of any component that have no meaning here.

@@ -82,6 +82,10 @@ void System::orderMappings(std::vector<Mapping*> mappings) {
         (*it)->error("state-ungoverned",
                      "maps a state that the solver '" + integrator_->path() + "' does not govern");
         it = mappings.erase(it);
+      } else if (ready[out]) {
+        (*it)->error("mapping-second", "maps to '" + (*it)->output().path() +
+                                           "', which another mapping moves already");
+        it = mappings.erase(it);
       } else if (ready[in]) {
         mappings_.push_back({*it, in, out, false});
         ready[out] = true;
@@ -100,6 +104,7 @@ void System::orderMappings(std::vector<Mapping*> mappings) {
   for (std::size_t s = 0; s < slots_.size(); ++s) carries[s] = !slots_[s].forceFields.empty();
   for (auto it = mappings_.rbegin(); it != mappings_.rend(); ++it) {
     it->mechanical = carries[it->out];
+    it->mapping->setMechanical(it->mechanical);
     if (it->mechanical) carries[it->in] = true;
   }
 }
@@ -114,7 +119,7 @@ void System::layOut() {
       size_ += slot.state->size();
     }
   }
-  // four spare doubles: vector units may read past the last particle's xyz
+  // a little to spare: vector units may read past the last particle's xyz
   const auto n = static_cast<std::size_t>(size_), m = static_cast<std::size_t>(mappedSize);
   storage_.assign(3 * n + 2, Vec3::Zero());
   mappedStorage_.assign(3 * m + 2, Vec3::Zero());
@@ -176,6 +181,10 @@ void System::layOut() {
     if (held[i]) projectors_.push_back({static_cast<Index>(i), free[i]});
   }
   reset();
+}
+
+void System::scheduleMappings(Schedule& schedule) const {
+  for (const MappingEntry& entry : mappings_) entry.mapping->schedule(schedule);
 }
 
 void System::reset() {

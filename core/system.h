@@ -58,6 +58,9 @@ class System {
   [[nodiscard]] BlockPattern pattern(bool& complete) const;
   void addTangent(BlockMatrix& matrix, double stiffness, double damping) const;
 
+  // Adds the mappings' calls, every input before its outputs.
+  void scheduleMappings(Schedule& schedule) const;
+
   // States, positions and velocities back to the start of the scene.
   void reset();
   // Positions and velocities of mapped states from the current independent ones.

@@ -42,14 +42,4 @@ template <class T>
   return found;
 }
 
-// The first component of class T in the node or, failing that, in the nearest ancestor.
-template <class T>
-[[nodiscard]] T* nearest(Node* node) {
-  for (; node; node = node->parent()) {
-    const auto found = collectHere<T>(*node);
-    if (!found.empty()) return found.front();
-  }
-  return nullptr;
-}
-
 }  // namespace stroma

@@ -415,45 +415,45 @@ void append(std::string& text, const std::vector<Item>& values) {
 
 }  // namespace
 
-template <PlainValue T>
-std::string ValueTraits<T>::typeName() {
+template <class T>
+std::string PlainTraits<T>::typeName() {
   return stroma::typeName(static_cast<const T*>(nullptr));
 }
 
-template <PlainValue T>
-std::optional<ParseError> ValueTraits<T>::parse(std::string_view text, const ValueContext& context,
+template <class T>
+std::optional<ParseError> PlainTraits<T>::parse(std::string_view text, const ValueContext& context,
                                                 T& out) {
   return parseText(text, context, out);
 }
 
-template <PlainValue T>
-std::string ValueTraits<T>::print(const T& value) {
+template <class T>
+std::string PlainTraits<T>::print(const T& value) {
   std::string text;
   append(text, value);
   return text;
 }
 
-template struct ValueTraits<bool>;
-template struct ValueTraits<int>;
-template struct ValueTraits<double>;
-template struct ValueTraits<std::string>;
-template struct ValueTraits<FilePath>;
-template struct ValueTraits<Vec3>;
-template struct ValueTraits<Quat>;
-template struct ValueTraits<Box>;
-template struct ValueTraits<Color>;
-template struct ValueTraits<IndexList>;
-template struct ValueTraits<std::array<Index, 2>>;
-template struct ValueTraits<std::array<Index, 3>>;
-template struct ValueTraits<std::vector<double>>;
-template struct ValueTraits<std::vector<int>>;
-template struct ValueTraits<std::vector<Vec3>>;
-template struct ValueTraits<std::vector<std::string>>;
-template struct ValueTraits<std::vector<Box>>;
-template struct ValueTraits<std::vector<Edge>>;
-template struct ValueTraits<std::vector<Triangle>>;
-template struct ValueTraits<std::vector<Tetrahedron>>;
-template struct ValueTraits<std::vector<Hexahedron>>;
+template struct PlainTraits<bool>;
+template struct PlainTraits<int>;
+template struct PlainTraits<double>;
+template struct PlainTraits<std::string>;
+template struct PlainTraits<FilePath>;
+template struct PlainTraits<Vec3>;
+template struct PlainTraits<Quat>;
+template struct PlainTraits<Box>;
+template struct PlainTraits<Color>;
+template struct PlainTraits<IndexList>;
+template struct PlainTraits<std::array<Index, 2>>;
+template struct PlainTraits<std::array<Index, 3>>;
+template struct PlainTraits<std::vector<double>>;
+template struct PlainTraits<std::vector<int>>;
+template struct PlainTraits<std::vector<Vec3>>;
+template struct PlainTraits<std::vector<std::string>>;
+template struct PlainTraits<std::vector<Box>>;
+template struct PlainTraits<std::vector<Edge>>;
+template struct PlainTraits<std::vector<Triangle>>;
+template struct PlainTraits<std::vector<Tetrahedron>>;
+template struct PlainTraits<std::vector<Hexahedron>>;
 
 std::optional<ParseError> parseChoice(std::string_view text,
                                       std::span<const std::string_view> names,

@@ -98,13 +98,17 @@ concept PlainValue = std::same_as<T, bool> || std::same_as<T, int> || std::same_
 template <class T>
 struct ValueTraits;
 
-template <PlainValue T>
-struct ValueTraits<T> {
+// Of its own, because clang 16 cannot define members of a constrained specialisation elsewhere.
+template <class T>
+struct PlainTraits {
   [[nodiscard]] static std::string typeName();
   [[nodiscard]] static std::optional<ParseError> parse(std::string_view text,
                                                        const ValueContext& context, T& out);
   [[nodiscard]] static std::string print(const T& value);
 };
+
+template <PlainValue T>
+struct ValueTraits<T> : PlainTraits<T> {};
 
 // Index of the text among the names; the error lists them all and the nearest.
 [[nodiscard]] std::optional<ParseError> parseChoice(std::string_view text,

@@ -17,11 +17,11 @@ PLUGIN(io, "0.1.0", "Apache-2.0", "Mesh files, pictures for ParaView, tables.")
   registry.add<stroma::MeshFileLoader<MeshFormat::stl>>("MeshSTLLoader")
       .doc("Reads a surface mesh from an STL file, text or binary.")
       .domain("Single precision; equal positions become one point.")
-      .example(scene);
+      .example("scenes/tutorials/elastic_support.xml");
   registry.add<stroma::MeshFileLoader<MeshFormat::ply>>("MeshPLYLoader")
       .doc("Reads a surface mesh from a PLY file, text or binary.")
       .domain("Single precision; points keep the file's order.")
-      .example(scene);
+      .example("scenes/tutorials/stretch_block.xml");
   registry.add<stroma::MeshGroupRoi>("MeshGroupROI")
       .doc("Selects the points and triangles of named groups of a mesh file.")
       .example(scene);
@@ -30,7 +30,7 @@ PLUGIN(io, "0.1.0", "Apache-2.0", "Mesh files, pictures for ParaView, tables.")
       .example(scene);
   registry.add<stroma::MeshExporter>("MeshExporter")
       .doc("Writes the deformed surface as an OBJ, PLY or STL file.")
-      .example(scene);
+      .example("scenes/tutorials/stretch_block.xml");
   registry.add<stroma::Monitor>("Monitor")
       .doc("Records a quantity of chosen particles, or an attribute, as a CSV table.")
       .example(scene);

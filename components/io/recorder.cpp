@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "core/scene.h"
+#include "core/traverse.h"
 
 namespace stroma {
 
@@ -18,6 +19,14 @@ void Recorder::configure() {
     error(filename, "output-path", "leaves the output folder",
           "give a relative path; the command line chooses the folder");
   }
+  forEachComponent(scene().root(), [&](Component& c) {
+    const auto* other = dynamic_cast<const Recorder*>(&c);
+    if (other && other != this && other->type() == type() &&
+        other->outputFile("") == outputFile("") && !other->failed()) {
+      error(filename, "output-twice", "would be written by '" + other->path() + "', too",
+            "give each its own name");
+    }
+  });
   if (everySteps.isSet() && period > 0) {
     error(period, "attr-conflict", "and 'exportEveryNumberOfSteps' cannot both be given");
   }

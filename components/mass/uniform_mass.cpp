@@ -7,6 +7,9 @@ void UniformMass::configure() {
   if (!totalMass.isSet() && !vertexMass.isSet()) {
     error("attr-required", "needs 'totalMass' or 'vertexMass' (nothing weighs 1 kg by default)");
   }
+  if (totalMass.isSet() && vertexMass.isSet()) {
+    error(vertexMass, "attr-conflict", "and 'totalMass' are both given: give one");
+  }
 }
 
 void UniformMass::addMasses(std::span<double> masses) const {

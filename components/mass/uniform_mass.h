@@ -11,7 +11,7 @@ class UniformMass final : public Mass {
  public:
   Attribute<double> totalMass{this, "totalMass", 0.0, "Mass of all particles together.",
                               {.unit = "kg", .min = 0, .exclusiveMin = true, .aliases = "totalmass"}};
-  Attribute<double> vertexMass{this, "vertexMass", 0.0, "Mass of each particle; used when given.",
+  Attribute<double> vertexMass{this, "vertexMass", 0.0, "Mass of each particle, instead of the total.",
                                {.unit = "kg", .min = 0, .exclusiveMin = true, .aliases = "vertexmass mass"}};
   Link<MechanicalState> mechanicalState{this, "state", "Particles that have the mass.",
                                         Lookup::sameNode, {.aliases = "mstate"}};

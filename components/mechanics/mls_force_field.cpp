@@ -122,7 +122,13 @@ bool MLSForceField::findSupports() {
             "src=\"@sampler\" takes them from a ParticleSampler of layout=\"shell\"");
       return false;
     }
-    for (const Vec3& n : *normal) axes.push_back({n.normalized(), spacing, layerSpacing});
+    for (const Vec3& n : *normal) {
+      if (!(n.norm() > 0)) {
+        error(normal, "support-axes", "has a vector of no length: each is a direction");
+        return false;
+      }
+      axes.push_back({n.normalized(), spacing, layerSpacing});
+    }
     options.radius /= *spacing;  // ellipsoids measure in spacings
   }
   neighbourhoods_ = findNeighbourhoods(X, options, axes);
@@ -201,9 +207,14 @@ void MLSForceField::reportRanks() {
 }
 
 void MLSForceField::buildBonds() {
-  law_.reset();
-  bonds_ = std::make_unique<MlsBonds>(mechanicalState->rest(), neighbourhoods_, transposed_,
-                                      gradients_, volumes_, *zeroEnergyControl * *youngModulus);
+  MlsBonds bonds(mechanicalState->rest(), neighbourhoods_, transposed_, gradients_, volumes_,
+                 *zeroEnergyControl * *youngModulus);
+  // in place: a volume constraint refers to them
+  if (bonds_) {
+    *bonds_ = std::move(bonds);
+  } else {
+    bonds_ = std::make_unique<MlsBonds>(std::move(bonds));
+  }
   law_ = makeLaw();
 }
 
@@ -213,6 +224,10 @@ void MLSForceField::bind() {
   if (failed()) return;
   reportRanks();
   buildBonds();
+  if (computeVonMises) {
+    vonMises.set(std::vector<double>(volumes_.size(), 0.0));
+    volumeRatio.set(std::vector<double>(volumes_.size(), 1.0));
+  }
 }
 
 std::unique_ptr<MLSForceField::Law> MLSForceField::makeLaw() const {
@@ -231,7 +246,7 @@ std::unique_ptr<MLSForceField::Law> MLSForceField::makeLaw() const {
 
 void MLSForceField::schedule(Schedule& schedule) {
   if (*computeVonMises) {
-    schedule.add<&MLSForceField::publishStress>(Stage::Publish, *this, "stress", Rate::visual);
+    schedule.add<&MLSForceField::publishStress>(Stage::Guard, *this, "stress", Rate::visual);
   }
 }
 

@@ -40,10 +40,4 @@ std::vector<SurfaceSample> sampleSurface(ConstVec3Span nodes, std::span<const Tr
   return samples;
 }
 
-double enclosedVolume(ConstVec3Span nodes, std::span<const Triangle> triangles) {
-  double volume = 0;
-  for (const Triangle& t : triangles) volume += nodes[t[0]].dot(nodes[t[1]].cross(nodes[t[2]])) / 6;
-  return volume;
-}
-
 }  // namespace stroma

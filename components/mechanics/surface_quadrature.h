@@ -22,7 +22,4 @@ struct SurfaceSample {
                                                        std::span<const Triangle> triangles,
                                                        double maxEdge = 0);
 
-// Volume enclosed by the mesh, m^3; negative where it is oriented inwards.
-[[nodiscard]] double enclosedVolume(ConstVec3Span nodes, std::span<const Triangle> triangles);
-
 }  // namespace stroma

@@ -43,7 +43,10 @@ NewtonResult Newton::minimise(NewtonProblem& problem, Vec3Span u, const NewtonOp
     const double next = norm(trialResidual_);
     if (found == Search::failed) {
       ++result.lineSearchFailures;
-      if (!(next < result.residual)) break;
+      if (!(next < result.residual)) {
+        problem.residual(u, r_);  // forces shown are those of the state that is kept
+        break;
+      }
     }
     std::ranges::copy(trial_, u.begin());
     std::ranges::copy(trialResidual_, r_.begin());

@@ -37,12 +37,13 @@ LinearSolution SparseLDLSolver::solve(const SystemMatrix& matrix, ConstVec3Span 
     result = cg_.solve(matrix, this, b, x, false, keepIterations, tolerance);
   }
   if (!result.solution.converged) {
-    factorize(matrix);
+    const bool usable = factorize(matrix);
     if (isShifted_) {
-      // the true matrix has no minimum to iterate to
+      // the true matrix has no minimum to iterate to: the shifted system's solution is taken
       ++shifted_;
-      apply(b, x);
-      result.solution = {1, 0, true};
+      if (!usable) ++notConverged_;
+      if (usable) apply(b, x);
+      result.solution = {1, residualOf(matrix, b, x), usable};
     } else {
       result = cg_.solve(matrix, this, b, x, false, iterations, tolerance);
       if (!result.solution.converged) ++notConverged_;
@@ -70,13 +71,21 @@ void SparseLDLSolver::prepare(const SystemMatrix& matrix) {
   restored_.clear();
 }
 
-void SparseLDLSolver::factorize(const SystemMatrix& matrix) {
+double SparseLDLSolver::residualOf(const SystemMatrix& matrix, ConstVec3Span b, ConstVec3Span x) {
+  residual_.resize(b.size());
+  matrix.multiply(x, residual_);
+  const double size = flat(b).norm();
+  return size > 0 ? (flat(b) - flat(Vec3Span(residual_))).norm() / size : 0;
+}
+
+// False when no shift makes the matrix positive definite.
+bool SparseLDLSolver::factorize(const SystemMatrix& matrix) {
   matrix.assemble(matrix_);
   lower_ = matrix_.lower();
   factorizations.set(factorizations + 1);
   holdsFactor_ = true;
   isShifted_ = false;
-  if (factorIsPositive()) return;
+  if (factorIsPositive()) return true;
   isShifted_ = true;
   const Eigen::VectorXd diagonal = lower_.diagonal();
   const double floor = 1e-12 * diagonal.cwiseAbs().maxCoeff();
@@ -86,8 +95,9 @@ void SparseLDLSolver::factorize(const SystemMatrix& matrix) {
       lower_.coeffRef(i, i) += (wanted - added) * std::max(std::abs(diagonal[i]), floor);
     }
     added = wanted;
-    if (factorIsPositive()) return;
+    if (factorIsPositive()) return true;
   }
+  return false;
 }
 
 bool SparseLDLSolver::factorIsPositive() {

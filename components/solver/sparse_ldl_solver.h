@@ -61,7 +61,8 @@ class SparseLDLSolver final : public LinearSolver, private Preconditioner {
  private:
   using Sparse = Eigen::SparseMatrix<double>;
   void prepare(const SystemMatrix& matrix);
-  void factorize(const SystemMatrix& matrix);
+  [[nodiscard]] bool factorize(const SystemMatrix& matrix);
+  [[nodiscard]] double residualOf(const SystemMatrix& matrix, ConstVec3Span b, ConstVec3Span x);
   [[nodiscard]] bool factorIsPositive();
   void apply(ConstVec3Span r, Vec3Span z) override;
 
@@ -75,6 +76,7 @@ class SparseLDLSolver final : public LinearSolver, private Preconditioner {
   std::vector<double> restored_;  // its entries in a checkpoint, until the pattern is known
   Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::AMDOrdering<int>> factor_;
   Eigen::VectorXd inversePivot_, permuted_;
+  std::vector<Vec3> residual_;
 };
 
 }  // namespace stroma

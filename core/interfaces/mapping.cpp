@@ -7,7 +7,7 @@ namespace stroma {
 
 void Mapping::schedule(Schedule& schedule) {
   schedule.add<&Mapping::follow>(Stage::Map, *this, "follow",
-                                 visual ? Rate::visual : Rate::step);
+                                 visual && !mechanical_ ? Rate::visual : Rate::step);
 }
 
 void Mapping::follow(const StepContext&) {

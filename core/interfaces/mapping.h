@@ -12,7 +12,8 @@ class Mapping : public Component {
   static constexpr std::string_view role = "Mapping";
 
   Attribute<bool> visual{this, "visual", false,
-                         "The output is only looked at: it follows at the visual rate."};
+                         "The output is only looked at: it follows at the visual rate. One that carries "
+                         "forces follows in every step all the same."};
 
   [[nodiscard]] virtual MechanicalState& input() const = 0;
   [[nodiscard]] virtual MechanicalState& output() const = 0;
@@ -21,9 +22,12 @@ class Mapping : public Component {
   virtual void addTransposed(ConstVec3Span out, Vec3Span in) const = 0;
 
   void schedule(Schedule& schedule) override;
+  // Whether forces act on what it maps to (core only: known when the system is built).
+  void setMechanical(bool mechanical) { mechanical_ = mechanical; }
 
  private:
   void follow(const StepContext& step);
+  bool mechanical_ = false;
 };
 
 }  // namespace stroma

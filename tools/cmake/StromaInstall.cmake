@@ -12,5 +12,8 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/StromaConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/StromaConfig.cmake ${PROJECT_BINARY_DIR}/StromaConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/StromaModule.cmake
         DESTINATION ${package_folder})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION share/stroma)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/plugins/template DESTINATION share/stroma)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/stroma)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/core DESTINATION include/stroma
         FILES_MATCHING PATTERN "*.h")

@@ -8,7 +8,7 @@
 namespace {
 
 constexpr const char* introduction =
-    "Stroma: real-time deformation and cutting of soft tissue, point-based.\n"
+    "Stroma: real-time deformation of soft tissue, point-based.\n"
     "Reads a scene (XML), makes its time steps and writes what the scene asks for.";
 
 constexpr const char* closing =

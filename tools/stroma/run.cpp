@@ -208,6 +208,7 @@ class Run {
     std::cout << (options_.json ? report_.json() : report_.text()) << std::flush;
     if (scene.divergence()) return diverged;
     if (fileTrouble_ || outputFailed(scene)) return fileTrouble;
+    if (scene.diagnostics().errorCount() > 0) return sceneInvalid;
     return report_.interrupted ? 128 + signalReceived : static_cast<int>(done);
   }
 
@@ -251,7 +252,8 @@ void addRun(CLI::App& app, int& exitCode) {
   command->footer(
       "--steps and --time count from the start of the scene, also after --resume.\n"
       "An interrupt (Ctrl-C) finishes the step, closes the files and prints the summary.\n"
-      "A run that diverges leaves its last good state in OUT/last_good.checkpoint.\n"
+      "A run that diverges leaves its last good positions and velocities in OUT/last_good.checkpoint,\n"
+      "to look at: resuming it unchanged diverges again.\n"
       "Examples:\n"
       "  stroma run scenes/cornea/pull.xml\n"
       "  stroma run scenes/cornea/pull.xml --time \"200 ms\" --set \"/cornea/grip.scale=-1\"\n"

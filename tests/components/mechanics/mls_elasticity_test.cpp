@@ -9,6 +9,7 @@
 #include "components/material/stable_neo_hookean.h"
 #include "components/material/volume_penalty.h"
 #include "components/mechanics/stability.h"
+#include "components/sampling/surface_mesh.h"
 #include "tests/components/mechanics/point_cloud.h"
 #include "tests/components/mechanics/static_solver.h"
 

@@ -93,6 +93,8 @@ struct BodyOptions {
   Index supports = 1;       // particles that carry a surface sample
   double sampleEdge = 0.5;  // in spacings
   int iterations = 8;
+  Kernel kernel = Kernel::mueller2003;
+  double reach = 1.2;
 };
 
 // Everything built from a cloud; loads on `samples` travel through `shape`.
@@ -111,6 +113,8 @@ struct Body {
     SupportOptions support;
     support.count = options.neighbours;
     support.radius = options.radius;
+    support.kernel = options.kernel;
+    support.reach = options.reach;
     if (!cloud.axes.empty()) support.shape = SupportShape::ellipsoid;
     neighbourhoods = findNeighbourhoods(X, support, cloud.axes);
     gradients = computeGradients(X, neighbourhoods);
