@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What `cmake --install` puts where: bin/stroma, lib/libstroma-core.so, lib/stroma/ (modules with their
 # manifests), include/stroma/ and lib/cmake/Stroma/, which find_package(Stroma) reads.
 include(CMakePackageConfigHelpers)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # stroma_add_module(NAME SOURCES file... [TESTABLE file...] [LINK target...])
 #
 # Builds a module: a shared library of components with a manifest <name>.plugin.json beside it, which

@@ -125,7 +125,7 @@ TEST(Boundary, mistakesAreNamed) {
       {"<ConstantForceField indices='0' forces='1 0 0 2 0 0'/>", "2 forces for 1 particles"},
       {"<ConstantForceField indices='9' totalForce='1 0 0'/>", "names particle 9"},
       {"<SurfacePressureForceField/>", "pressure"},
-      {"<SurfacePressureForceField pressure='1' triangleIndices='8'/>", "triangle 8 of 8"},
+      {"<SurfacePressureForceField pressure='1' triangleIndices='8'/>", "names triangle 8, but there are 8"},
       {"<SurfacePressureForceField pressure='1' triangles='0 1 77'/>", "has node 77"},
       {"<TractionForceField/>", "one of 'traction' and 'stress'"},
       {"<TractionForceField stress='1 2 3'/>", "expected 6"},
