@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Attributes: the typed, documented parameters of nodes and components. One declaration gives the
-// name, the help, the unit, the range and the default; XML parsing, checks, reference pages, the XSD
-// and run-time changes all read it.
+// name, the help, the unit, the range and the default; XML parsing, checks, reference pages, the
+// XSD and run-time changes all read it.
 #pragma once
 
 #include <limits>
@@ -22,10 +22,10 @@ class AttributeOwner;
 
 // What is known of an attribute besides its name, type, default and help.
 struct AttributeInfo {
-  std::string_view unit = "";     // SI unit of the stored value, "" = text or a count
+  std::string_view unit = "";  // SI unit of the stored value, "" = text or a count
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
-  bool exclusiveMin = false;      // min itself is not allowed
+  bool exclusiveMin = false;  // min itself is not allowed
   bool exclusiveMax = false;
   bool required = false;          // the scene must give it
   bool runtime = false;           // may be changed while the simulation runs

@@ -70,7 +70,8 @@ Eigen::SparseMatrix<double> BlockMatrix::lower() const {
   const std::size_t n = below_.size();
   Eigen::SparseMatrix<double> matrix(static_cast<Eigen::Index>(3 * n),
                                      static_cast<Eigen::Index>(3 * n));
-  // written straight into compressed columns: a column holds its diagonal block, then those below it
+  // written straight into compressed columns: a column holds its diagonal block, then those below
+  // it
   std::vector<int>::size_type entries = 0;
   for (std::size_t j = 0; j < n; ++j) entries += 6 + 9 * below_[j].size();
   matrix.resizeNonZeros(static_cast<Eigen::Index>(entries));

@@ -26,7 +26,8 @@ class BlockPattern {
   std::vector<std::vector<Index>> rows_;
 };
 
-// Stores the lower triangle (row >= column) by rows, columns ascending; the diagonal is always present.
+// Stores the lower triangle (row >= column) by rows, columns ascending; the diagonal is always
+// present.
 class BlockMatrix {
  public:
   BlockMatrix() = default;
@@ -34,20 +35,22 @@ class BlockMatrix {
 
   [[nodiscard]] Index size() const { return static_cast<Index>(begin_.size()) - 1; }
   void setZero();
-  // Adds `block` at (row, column). Blocks above the diagonal are skipped: the caller adds both (i, j) and
-  // (j, i), transposed to each other, or only the lower one.
+  // Adds `block` at (row, column). Blocks above the diagonal are skipped: the caller adds both (i,
+  // j) and (j, i), transposed to each other, or only the lower one.
   void add(Index row, Index column, const Mat3& block) {
     if (row < column) return;
     values_[static_cast<std::size_t>(find(row, column))] += block;
   }
   void addDiagonal(Index row, double value) {
-    values_[static_cast<std::size_t>(begin_[static_cast<std::size_t>(row) + 1] - 1)].diagonal().array() +=
-        value;
+    values_[static_cast<std::size_t>(begin_[static_cast<std::size_t>(row) + 1] - 1)]
+        .diagonal()
+        .array() += value;
   }
   [[nodiscard]] const Mat3& diagonal(Index row) const {
     return values_[static_cast<std::size_t>(begin_[static_cast<std::size_t>(row) + 1] - 1)];
   }
-  // A <- P A P + (I - P) for the block-diagonal projector P that is `projector` at `particle`, else I.
+  // A <- P A P + (I - P) for the block-diagonal projector P that is `projector` at `particle`, else
+  // I.
   void project(Index particle, const Mat3& projector);
   // Lower triangle with scalar entries; the pattern is the same at every call.
   [[nodiscard]] Eigen::SparseMatrix<double> lower() const;

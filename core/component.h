@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A component: a named unit of behaviour in one node of the scene. It declares its attributes and links
-// as members and overrides the hooks it needs; what it does in a step it says once, in schedule().
+// A component: a named unit of behaviour in one node of the scene. It declares its attributes and
+// links as members and overrides the hooks it needs; what it does in a step it says once, in
+// schedule().
 #pragma once
 
 #include <cstdint>
@@ -20,8 +21,8 @@ class StateReader;
 class StateWriter;
 struct StepContext;
 
-// Counts how often a limiter acted (an iteration cap, a force clamp, ...). Limiters that acted are named
-// in the run's summary: nothing is limited silently.
+// Counts how often a limiter acted (an iteration cap, a force clamp, ...). Limiters that acted are
+// named in the run's summary: nothing is limited silently.
 class Limiter {
  public:
   Limiter(Component* owner, std::string_view name, std::string_view doc);
@@ -70,7 +71,8 @@ class Component : public AttributeOwner {
   // Whether a warning was reported for it: what follows from the same fault need not warn again.
   [[nodiscard]] bool warned() const { return warned_; }
 
-  // Diagnostics that point at this component's element, or at where the attribute or link was written.
+  // Diagnostics that point at this component's element, or at where the attribute or link was
+  // written.
   void error(std::string id, std::string message, std::string hint = "");
   void error(const AttributeBase& attribute, std::string id, std::string message,
              std::string hint = "");

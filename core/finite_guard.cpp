@@ -16,8 +16,8 @@ constexpr Index mostKept = 200'000;
 // 0 * a is 0 for finite numbers and NaN otherwise: a sum that vectorises and needs no branch.
 bool allFinite(ConstVec3Span a) {
   const double sum = parallelSum(static_cast<Index>(a.size()), 0.0, [&](Index begin, Index end) {
-    const auto part = flat(a.subspan(static_cast<std::size_t>(begin),
-                                     static_cast<std::size_t>(end - begin)));
+    const auto part =
+        flat(a.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)));
     return (part.array() * 0.0).sum();
   });
   return sum == 0.0;
@@ -74,7 +74,8 @@ std::optional<Divergence> FiniteGuard::explain(std::uint64_t step, double time, 
 
   std::string cause;
   if (keeps_) {
-    // every force field again, alone, at the last good state: the first that is not finite is to blame
+    // every force field again, alone, at the last good state: the first that is not finite is to
+    // blame
     double largest = -1;
     std::string strongest;
     for (MechanicalState* state : system_->states()) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stops a run at the first position or velocity that is not finite, and finds out where it came from.
+// Stops a run at the first position or velocity that is not finite, and finds out where it came
+// from.
 #pragma once
 
 #include <memory>
@@ -27,8 +28,8 @@ class FiniteGuard {
   [[nodiscard]] std::optional<Divergence> check(std::uint64_t step, double time, double dt);
   // Puts the last good state back where one is kept.
   bool restoreLastGood();
-  // Keeps the present state as the last good one (systems of up to 200,000 particles; larger ones are
-  // only checked).
+  // Keeps the present state as the last good one (systems of up to 200,000 particles; larger ones
+  // are only checked).
   void accept();
 
  private:

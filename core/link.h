@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Links: checked references from a component to another, resolved once after the whole scene is read,
-// so the order of elements does not matter.
+// Links: checked references from a component to another, resolved once after the whole scene is
+// read, so the order of elements does not matter.
 #pragma once
 
 #include <string>

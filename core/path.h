@@ -3,8 +3,8 @@
 //
 //   @name  @name.attr  @../a/b.attr  @/from/the/root  @./here  @[-1].attr  @..  @.
 //
-// A first step without prefix is looked for in the node (child nodes first), then in its ancestors; later
-// steps only where they stand. @[-1] is the previous component of the same node.
+// A first step without prefix is looked for in the node (child nodes first), then in its ancestors;
+// later steps only where they stand. @[-1] is the previous component of the same node.
 #pragma once
 
 #include <string>
@@ -29,8 +29,8 @@ struct PathParts {
 // Splits at the last dot behind the last slash; "." and ".." are steps, not attributes.
 [[nodiscard]] PathParts splitPath(std::string_view path);
 
-// Finds what `path` (without '@' and attribute) names, seen from a component of `node` (or from the node
-// itself when `self` is null). On failure `problem` says why and `hint` names near misses.
+// Finds what `path` (without '@' and attribute) names, seen from a component of `node` (or from the
+// node itself when `self` is null). On failure `problem` says why and `hint` names near misses.
 [[nodiscard]] PathTarget resolvePath(Node& node, const Component* self, std::string_view path,
                                      std::string& problem, std::string& hint);
 

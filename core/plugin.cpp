@@ -178,8 +178,8 @@ bool ModuleIndex::load(const ModuleManifest& wanted, Registry& registry, std::st
     return false;
   }
   if (registry.conflicts().size() > conflicts) {
-    problem = "plugin '" + wanted.name + "' registers a component that exists already: " +
-              registry.conflicts().back();
+    problem = "plugin '" + wanted.name +
+              "' registers a component that exists already: " + registry.conflicts().back();
     return false;
   }
   loaded_.push_back(wanted.name);

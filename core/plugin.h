@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a module (a shared library of components) exports, and how modules are found and loaded.
 //
-// A module holds one PLUGIN(name, version, license, summary)(Registry& registry) { registry.add<...> }.
-// Beside it lies a manifest <name>.plugin.json, written at build time, that lists its components, so
-// that a module is loaded only when a scene names one of them.
+// A module holds one PLUGIN(name, version, license, summary)(Registry& registry) {
+// registry.add<...> }. Beside it lies a manifest <name>.plugin.json, written at build time, that
+// lists its components, so that a module is loaded only when a scene names one of them.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,8 @@
 
 #include "core/registry.h"
 
-// One line that must be equal in the core and in a plugin: whatever changes the layout of shared types.
+// One line that must be equal in the core and in a plugin: whatever changes the layout of shared
+// types.
 #ifdef __clang__
 #define STROMA_COMPILER "clang"
 #else
@@ -31,7 +32,7 @@
 #endif
 #define STROMA_TEXT_(x) #x
 #define STROMA_TEXT(x) STROMA_TEXT_(x)
-#define STROMA_BUILD_ID                                                                 \
+#define STROMA_BUILD_ID \
   STROMA_COMPILER "-" STROMA_TEXT(__GNUC__) "/cxx11abi-" STROMA_TEXT(                   \
       _GLIBCXX_USE_CXX11_ABI) "/c++" STROMA_TEXT(__cplusplus) "/double/eigen-"          \
       STROMA_TEXT(EIGEN_WORLD_VERSION) "." STROMA_TEXT(EIGEN_MAJOR_VERSION) "-align"    \
@@ -66,8 +67,8 @@ struct ModuleManifest {
 // The build id of this core.
 [[nodiscard]] std::string_view coreBuildId();
 
-// Loads one library and returns its descriptor, or null with the reason in `problem`. The library stays
-// loaded for the life of the process: components hold code from it.
+// Loads one library and returns its descriptor, or null with the reason in `problem`. The library
+// stays loaded for the life of the process: components hold code from it.
 [[nodiscard]] const PluginDescriptor* loadPlugin(const std::filesystem::path& library,
                                                  std::string& problem);
 
@@ -77,11 +78,12 @@ struct ModuleManifest {
 
 class ModuleIndex {
  public:
-  // Reads every manifest in the folders (no library is opened). Broken manifests are kept as problems.
+  // Reads every manifest in the folders (no library is opened). Broken manifests are kept as
+  // problems.
   explicit ModuleIndex(const std::vector<std::filesystem::path>& folders);
 
-  // The folders searched unless told otherwise: STROMA_PLUGIN_PATH, then the folder of the installed
-  // modules beside the core library.
+  // The folders searched unless told otherwise: STROMA_PLUGIN_PATH, then the folder of the
+  // installed modules beside the core library.
   [[nodiscard]] static std::vector<std::filesystem::path> defaultFolders();
 
   [[nodiscard]] const ModuleManifest* moduleOf(std::string_view component) const;
@@ -90,7 +92,8 @@ class ModuleIndex {
   [[nodiscard]] const std::vector<std::string>& problems() const { return problems_; }
   [[nodiscard]] std::vector<std::string> componentNames() const;
 
-  // Loads the module into the registry unless it is there already. False with the reason in `problem`.
+  // Loads the module into the registry unless it is there already. False with the reason in
+  // `problem`.
   [[nodiscard]] bool load(const ModuleManifest& module, Registry& registry, std::string& problem);
   [[nodiscard]] const std::vector<std::string>& loaded() const { return loaded_; }
 
@@ -102,17 +105,17 @@ class ModuleIndex {
 
 }  // namespace stroma
 
-#define PLUGIN(name, version, license, summary)                                               \
-  static void stromaRegister_##name(::stroma::Registry&);                                     \
-  extern "C" [[gnu::visibility("default")]] const ::stroma::PluginDescriptor                  \
-      stroma_plugin_descriptor;                                                               \
-  const ::stroma::PluginDescriptor stroma_plugin_descriptor = {::stroma::pluginMagic,         \
+#define PLUGIN(name, version, license, summary)                                                    \
+  static void stromaRegister_##name(::stroma::Registry&);                                          \
+  extern "C"                                                                                       \
+      [[gnu::visibility("default")]] const ::stroma::PluginDescriptor stroma_plugin_descriptor;    \
+  const ::stroma::PluginDescriptor stroma_plugin_descriptor = {::stroma::pluginMagic,              \
                                                                sizeof(::stroma::PluginDescriptor), \
-                                                               ::stroma::coreAbi,             \
-                                                               #name,                         \
-                                                               version,                       \
-                                                               license,                       \
-                                                               summary,                       \
-                                                               STROMA_BUILD_ID,               \
-                                                               stromaRegister_##name};        \
+                                                               ::stroma::coreAbi,                  \
+                                                               #name,                              \
+                                                               version,                            \
+                                                               license,                            \
+                                                               summary,                            \
+                                                               STROMA_BUILD_ID,                    \
+                                                               stromaRegister_##name};             \
   static void stromaRegister_##name

@@ -15,7 +15,9 @@ class Timer {
   void add(std::chrono::nanoseconds duration);
   [[nodiscard]] std::uint64_t count() const { return count_; }
   [[nodiscard]] double totalMs() const { return static_cast<double>(total_) * 1e-6; }
-  [[nodiscard]] double meanMs() const { return count_ ? totalMs() / static_cast<double>(count_) : 0; }
+  [[nodiscard]] double meanMs() const {
+    return count_ ? totalMs() / static_cast<double>(count_) : 0;
+  }
   [[nodiscard]] double maxMs() const { return static_cast<double>(max_) * 1e-6; }
   [[nodiscard]] double percentileMs(double fraction) const;
 

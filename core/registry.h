@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The components that exist: name -> creator, help, origin. Modules fill it by an explicit function;
-// there are no static initialisers and no process-wide instance.
+// The components that exist: name -> creator, help, origin. Modules fill it by an explicit
+// function; there are no static initialisers and no process-wide instance.
 #pragma once
 
 #include <functional>
@@ -60,7 +60,8 @@ class Registry {
   [[nodiscard]] const std::vector<std::string>& conflicts() const { return conflicts_; }
 
  private:
-  ComponentRegistration insert(std::string name, std::function<std::unique_ptr<Component>()> create);
+  ComponentRegistration insert(std::string name,
+                               std::function<std::unique_ptr<Component>()> create);
   std::map<std::string, ComponentEntry, std::less<>> entries_;
   std::vector<std::string> conflicts_;
   std::string origin_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <map>
 
@@ -15,7 +16,8 @@
 namespace stroma {
 namespace {
 
-// Number of periods that have ended by step n: exact for any n, so slower and faster rates never drift.
+// Number of periods that have ended by step n: exact for any n, so slower and faster rates never
+// drift.
 std::uint64_t ticks(std::uint64_t step, double dt, double rate) {
   return static_cast<std::uint64_t>(std::floor(static_cast<double>(step) * dt * rate + 1e-9));
 }
@@ -72,8 +74,8 @@ bool Scene::readInto(std::optional<SceneElement> element) {
   if (!element) return false;
   contentHash_ = hashElement(*element, hashBytes({}));
   for (const std::string& assignment : options_.overrides) {
-    contentHash_ = hashBytes(std::as_bytes(std::span(assignment.data(), assignment.size() + 1)),
-                             contentHash_);
+    contentHash_ =
+        hashBytes(std::as_bytes(std::span(assignment.data(), assignment.size() + 1)), contentHash_);
   }
   SceneReader(*this).read(*element, options_.overrides);
   return diagnostics_.errorCount() == 0;
@@ -174,7 +176,9 @@ void Scene::compile() {
   for (int s = 0; s < stageCount; ++s) {
     for (const Schedule::Entry& e : schedule_.stage(static_cast<Stage>(s))) {
       profiler_.rows(s).push_back({std::string(stageName(static_cast<Stage>(s))),
-                                   e.component->path(), std::string(e.label), {}});
+                                   e.component->path(),
+                                   std::string(e.label),
+                                   {}});
     }
   }
   for (const auto& system : systems_) guards_.emplace_back(*system);
@@ -191,9 +195,10 @@ bool Scene::step() {
   StepContext context{timeAt(step_), dt(), next};
   const bool visual =
       rates_.visual <= 0 || ticks(next, dt(), rates_.visual) > ticks(step_, dt(), rates_.visual);
-  const int haptic = rates_.haptic <= 0 ? 1
-                                        : static_cast<int>(ticks(next, dt(), rates_.haptic) -
-                                                           ticks(step_, dt(), rates_.haptic));
+  const int haptic =
+      rates_.haptic <= 0
+          ? 1
+          : static_cast<int>(ticks(next, dt(), rates_.haptic) - ticks(step_, dt(), rates_.haptic));
   const auto run = [&](Stage stage) { schedule_.run(stage, context, visual, haptic, profiler_); };
   run(Stage::Input);
   run(Stage::Topology);
@@ -210,7 +215,8 @@ bool Scene::step() {
     }
   }
   for (FiniteGuard& guard : guards_) guard.accept();
-  profiler_.stage(static_cast<int>(Stage::Guard)).add(std::chrono::steady_clock::now() - guardBegin);
+  profiler_.stage(static_cast<int>(Stage::Guard))
+      .add(std::chrono::steady_clock::now() - guardBegin);
   step_ = next;
   run(Stage::Map);
   run(Stage::Guard);
@@ -269,8 +275,8 @@ bool Scene::restore(const Snapshot& snapshot) {
   divergence_.reset();
   for (const auto& system : systems_) {
     const StateReader reader(snapshot.chunks, system->integrator().path());
-    const bool read = reader.read("system.x", system->x()) && reader.read("system.v", system->v()) &&
-                      reader.read("system.f", system->f());
+    const bool read = reader.read("system.x", system->x()) &&
+                      reader.read("system.v", system->v()) && reader.read("system.f", system->f());
     if (!read) return false;
     system->updateMapped();
   }
@@ -304,7 +310,8 @@ std::optional<std::string> Scene::setAttribute(const std::string& path, const st
   AttributeOwner& owner =
       target.component ? static_cast<AttributeOwner&>(*target.component) : *target.node;
   AttributeBase* attribute = owner.attribute(parts.attribute);
-  if (!attribute) return owner.describe() + " has no attribute '" + std::string(parts.attribute) + "'";
+  if (!attribute)
+    return owner.describe() + " has no attribute '" + std::string(parts.attribute) + "'";
   if (!attribute->info().runtime) {
     return "'" + std::string(attribute->name()) + "' cannot be changed while the scene runs";
   }
@@ -334,10 +341,15 @@ std::optional<std::filesystem::path> Scene::findInput(Component& component,
   std::string searched;
   auto found = findFile(attribute->path, file_.parent_path(), options_.dataFolders, searched);
   if (!found) {
-    component.error(attribute, "file-missing", "names a file that is not there: '" +
-                                                   attribute->path + "'",
+    component.error(attribute, "file-missing",
+                    "names a file that is not there: '" + attribute->path + "'",
                     "searched: " + searched);
+    return found;
   }
+  // a checkpoint belongs to the meshes, too
+  std::ifstream stream(*found, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  contentHash_ = hashBytes(std::as_bytes(std::span(bytes)), contentHash_);
   return found;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene: the tree, its diagnostics, the compiled schedule, the clock and the snapshots. It is the one object
-// that an application holds; several may live in a process.
+// A scene: the tree, its diagnostics, the compiled schedule, the clock and the snapshots. It is the
+// one object that an application holds; several may live in a process.
 #pragma once
 
 #include <filesystem>
@@ -24,11 +24,12 @@ namespace stroma {
 
 struct SceneOptions {
   std::vector<std::filesystem::path> pluginFolders = ModuleIndex::defaultFolders();
-  std::vector<std::filesystem::path> dataFolders;  // where meshes and included scenes are looked for
-  std::vector<std::string> overrides;              // "/path.attribute=value", as --set gives them
-  std::filesystem::path outputFolder = ".";        // where exporters write
-  bool writesOutput = true;                        // false: exporters stay silent (checks, benchmarks)
-  bool lenient = false;                            // unknown elements and attributes only warn
+  std::vector<std::filesystem::path>
+      dataFolders;                           // where meshes and included scenes are looked for
+  std::vector<std::string> overrides;        // "/path.attribute=value", as --set gives them
+  std::filesystem::path outputFolder = ".";  // where exporters write
+  bool writesOutput = true;                  // false: exporters stay silent (checks, benchmarks)
+  bool lenient = false;                      // unknown elements and attributes only warn
 };
 
 class Scene {
@@ -42,12 +43,12 @@ class Scene {
   [[nodiscard]] bool load(const std::filesystem::path& file);
   // The same from text; `file` names it and is the place that meshes are relative to.
   [[nodiscard]] bool loadText(std::string text, const std::filesystem::path& file);
-  // Configures and binds the components in order of their links, compiles the schedule, starts. False when
-  // there were errors.
+  // Configures and binds the components in order of their links, compiles the schedule, starts.
+  // False when there were errors.
   [[nodiscard]] bool initialise();
 
-  // Makes one step. False when the state is no longer finite: divergence() then tells, and the last good
-  // state is back in place where one was kept.
+  // Makes one step. False when the state is no longer finite: divergence() then tells, and the last
+  // good state is back in place where one was kept.
   [[nodiscard]] bool step();
   [[nodiscard]] const std::optional<Divergence>& divergence() const { return divergence_; }
   // Ends the run: components close their files. Called by the destructor if need be.
@@ -58,13 +59,13 @@ class Scene {
   [[nodiscard]] Snapshot save() const;
   // False when the snapshot does not fit this scene; the state is then unchanged.
   [[nodiscard]] bool restore(const Snapshot& snapshot);
-  // Identifies what was loaded: scene text, includes and overrides.
+  // Identifies what was loaded: scene text, includes, overrides and, once initialised, input files.
   [[nodiscard]] std::uint64_t contentHash() const { return contentHash_; }
   // FNV-1a over the bits of all positions and velocities.
   [[nodiscard]] std::uint64_t stateHash() const;
 
-  // Sets a run-time attribute; the reason when that is not possible. Takes effect at once: call it between
-  // steps.
+  // Sets a run-time attribute; the reason when that is not possible. Takes effect at once: call it
+  // between steps.
   [[nodiscard]] std::optional<std::string> setAttribute(const std::string& path,
                                                         const std::string& value);
 
@@ -86,10 +87,10 @@ class Scene {
   [[nodiscard]] std::uint64_t stepCount() const { return step_; }
   [[nodiscard]] Index particleCount() const;
 
-  // Finds an input file (a mesh, a table): beside the scene, then in the data folders. Reports at the
-  // attribute when there is none.
-  [[nodiscard]] std::optional<std::filesystem::path> findInput(Component& component,
-                                                               const Attribute<FilePath>& attribute);
+  // Finds an input file (a mesh, a table): beside the scene, then in the data folders. Reports at
+  // the attribute when there is none.
+  [[nodiscard]] std::optional<std::filesystem::path> findInput(
+      Component& component, const Attribute<FilePath>& attribute);
 
  private:
   friend class SceneReader;

@@ -2,8 +2,8 @@
 #include "core/scene_reader.h"
 
 #include <algorithm>
-#include <map>
 #include <iterator>
+#include <map>
 #include <sstream>
 
 #include "core/path.h"
@@ -103,13 +103,13 @@ void SceneReader::readNode(const SceneElement& element, Node& node, UnitSystem u
     if (a.name == "name" || isComment(a.name) || sofa::isIgnoredNodeAttribute(a.name)) continue;
     if (AttributeBase* attribute = node.attribute(a.name)) {
       setValue(node, *attribute, a.value, a.valueAt, units);
-      const bool ofRoot = attribute == &node.dt || attribute == &node.time ||
-                          attribute == &node.duration;
+      const bool ofRoot =
+          attribute == &node.dt || attribute == &node.time || attribute == &node.duration;
       if (ofRoot && node.parent()) {
-        diagnostics_.warning("attr-root-only",
-                             "Node '" + node.name() + "': '" + a.name +
-                                 "' is read from the root node only",
-                             a.nameAt);
+        diagnostics_.warning(
+            "attr-root-only",
+            "Node '" + node.name() + "': '" + a.name + "' is read from the root node only",
+            a.nameAt);
       }
     } else {
       const auto names = node.attributeAndLinkNames();
@@ -195,8 +195,9 @@ void SceneReader::readComponent(const SceneElement& element, Node& node, const U
       std::string data = a.value.substr(0, a.value.find(','));
       const bool matrix = data.starts_with("CompressedRowSparse") || data == "GraphScattered";
       if (!matrix && std::ranges::find(entry->dataTypes, data) == entry->dataTypes.end()) {
-        diagnostics_.error("template", component.describe() + ": there is no variant for '" +
-                                           a.value + "': this build has Vec3 only",
+        diagnostics_.error("template",
+                           component.describe() + ": there is no variant for '" + a.value +
+                               "': this build has Vec3 only",
                            a.valueAt);
       }
     } else if (a.name == "src") {
@@ -245,15 +246,16 @@ void SceneReader::setValue(AttributeOwner& owner, AttributeBase& attribute, cons
     if (auto* component = dynamic_cast<Component*>(&owner)) {
       pending_.push_back({component, &attribute, text, at});
     } else {
-      diagnostics_.error("link-node", owner.describe() + ": attributes of nodes cannot be links", at);
+      diagnostics_.error("link-node", owner.describe() + ": attributes of nodes cannot be links",
+                         at);
     }
     return;
   }
   if (auto error = attribute.parse(text, units)) {
-    diagnostics_.error(error->id,
-                       owner.describe() + ": '" + std::string(attribute.name()) +
-                           "': " + error->message,
-                       within(at, *error), error->hint);
+    diagnostics_.error(
+        error->id,
+        owner.describe() + ": '" + std::string(attribute.name()) + "': " + error->message,
+        within(at, *error), error->hint);
     if (auto* component = dynamic_cast<Component*>(&owner)) component->failed_ = true;
   }
 }
@@ -295,8 +297,10 @@ void SceneReader::override(const std::string& assignment) {
   }
   if (target.component) {
     readAttribute(*target.component,
-                  {std::string(parts.attribute), value,
-                   {source, equals - parts.attribute.size(), parts.attribute.size()}, valueAt},
+                  {std::string(parts.attribute),
+                   value,
+                   {source, equals - parts.attribute.size(), parts.attribute.size()},
+                   valueAt},
                   UnitSystem{});
   } else if (parts.attribute == "activated" || parts.attribute == "units") {
     diagnostics_.error("set-path",
@@ -306,10 +310,10 @@ void SceneReader::override(const std::string& assignment) {
   } else if (AttributeBase* attribute = target.node->attribute(parts.attribute)) {
     setValue(*target.node, *attribute, value, valueAt, UnitSystem{});
   } else {
-    diagnostics_.error("attr-unknown",
-                       target.node->describe() + ": unknown attribute '" +
-                           std::string(parts.attribute) + "'",
-                       pathAt, didYouMean(parts.attribute, target.node->attributeAndLinkNames()));
+    diagnostics_.error(
+        "attr-unknown",
+        target.node->describe() + ": unknown attribute '" + std::string(parts.attribute) + "'",
+        pathAt, didYouMean(parts.attribute, target.node->attributeAndLinkNames()));
   }
 }
 
@@ -364,8 +368,9 @@ void SceneReader::resolveExplicit(Component& component, LinkBase& link) {
     } else {
       target = resolvePath(component.node(), &component, path, problem, hint);
     }
-    if (!target) return fail("link-missing", "links to '" + token + "': " + problem,
-                             hint.empty() ? candidates(link, component) : hint);
+    if (!target)
+      return fail("link-missing", "links to '" + token + "': " + problem,
+                  hint.empty() ? candidates(link, component) : hint);
     if (!target.component) {
       std::vector<Component*> found;
       for (const auto& c : target.node->components()) {
@@ -379,10 +384,10 @@ void SceneReader::resolveExplicit(Component& component, LinkBase& link) {
       }
       target.component = found.front();
     } else if (!link.accepts(*target.component)) {
-      return fail("link-type",
-                  "links to '" + token + "', a " + target.component->type() + "; a " + role +
-                      " is wanted",
-                  candidates(link, component));
+      return fail(
+          "link-type",
+          "links to '" + token + "', a " + target.component->type() + "; a " + role + " is wanted",
+          candidates(link, component));
     }
     targets.push_back(target.component);
   }
@@ -403,10 +408,10 @@ void SceneReader::resolveImplicit(Component& component, LinkBase& link) {
   const std::string who = component.describe() + ": '" + std::string(link.name()) + "' ";
   if (found.size() > 1 && !link.info().many) {
     component.failed_ = true;
-    diagnostics_.error("link-ambiguous",
-                       who + "could be several components: write " + std::string(link.name()) +
-                           "=\"@name\"",
-                       component.where(), candidates(link, component));
+    diagnostics_.error(
+        "link-ambiguous",
+        who + "could be several components: write " + std::string(link.name()) + "=\"@name\"",
+        component.where(), candidates(link, component));
     return;
   }
   if (found.empty() && link.info().required) {
@@ -432,14 +437,16 @@ void SceneReader::resolvePending(const PendingLink& pending) {
   };
   const std::vector<std::string> tokens = words(pending.text);
   if (tokens.size() != 1 || !tokens[0].starts_with('@') || tokens[0] == "@") {
-    return fail("link-syntax", "is not one link such as '@component" +
-                                   std::string(pending.attribute ? ".attribute'" : "'"), "");
+    return fail("link-syntax",
+                "is not one link such as '@component" +
+                    std::string(pending.attribute ? ".attribute'" : "'"),
+                "");
   }
   const std::string_view path = std::string_view(tokens[0]).substr(1);
   const PathParts parts = pending.attribute ? splitPath(path) : PathParts{path, {}};
   if (pending.attribute && parts.attribute.empty()) {
-    return fail("link-syntax", "links to '" + tokens[0] + "': name an attribute, '@component.attribute'",
-                "");
+    return fail("link-syntax",
+                "links to '" + tokens[0] + "': name an attribute, '@component.attribute'", "");
   }
   std::string problem, hint;
   const PathTarget target = resolvePath(component.node(), &component, parts.object, problem, hint);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds a scene's tree from its elements: creates components (loading their modules), reads attributes,
-// resolves links. All problems of a scene are reported in one pass.
+// Builds a scene's tree from its elements: creates components (loading their modules), reads
+// attributes, resolves links. All problems of a scene are reported in one pass.
 #pragma once
 
 #include <map>

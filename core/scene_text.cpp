@@ -16,8 +16,8 @@ namespace {
 
 constexpr int deepestInclude = 16;
 
-// tinyxml2 keeps one copy of the text and points into it, but tells only lines. The first '<' anchors its
-// pointers to our offsets; a pointer that does not fit falls back to the line.
+// tinyxml2 keeps one copy of the text and points into it, but tells only lines. The first '<'
+// anchors its pointers to our offsets; a pointer that does not fit falls back to the line.
 class Locator {
  public:
   Locator(const tinyxml2::XMLDocument& document, std::shared_ptr<const SourceText> source)
@@ -78,8 +78,9 @@ void convert(const tinyxml2::XMLElement& from, const Locator& locator, Diagnosti
       SourceRange at = locator.at(text->Value(), text->GetLineNum());
       at.offset += begin;
       at.length = length;
-      diagnostics.error("xml-text", "text between elements has no meaning here: " +
-                                        quoted(value.substr(begin, length)), at);
+      diagnostics.error(
+          "xml-text",
+          "text between elements has no meaning here: " + quoted(value.substr(begin, length)), at);
     }
   }
 }
@@ -158,13 +159,24 @@ class Includer {
       if (a.name == "name") {
         name = a.value;
       } else if (a.name.starts_with("param.")) {
-        substitute(*root, "${" + a.name.substr(6) + "}", a.value);
+        const std::string key = "${" + a.name.substr(6) + "}";
+        if (substitute(*root, key, a.value) == 0) {
+          diagnostics_.error("include-unused", "'" + href->value + "' has no " + key, a.nameAt);
+        }
       } else {
         const std::size_t split = a.name.find("__");
         const std::string only = split == std::string::npos ? "" : a.name.substr(0, split);
         SceneAttribute replacement = a;
         if (split != std::string::npos) replacement.name = a.name.substr(split + 2);
-        replace(*root, only, replacement);
+        if (replace(*root, only, replacement) == 0) {
+          std::vector<std::string> names;
+          collectNames(*root, names);
+          diagnostics_.error("include-unused",
+                             "no element of '" + href->value + "'" +
+                                 (only.empty() ? "" : " called '" + only + "'") +
+                                 " has the attribute '" + replacement.name + "'",
+                             a.nameAt, didYouMean(replacement.name, names));
+        }
       }
     }
     expand(*root, *found, depth + 1);
@@ -188,25 +200,38 @@ class Includer {
     element.attributes.push_back(name);
   }
 
-  static void substitute(SceneElement& element, const std::string& key, const std::string& value) {
+  // These return how often they changed something.
+  static int substitute(SceneElement& element, const std::string& key, const std::string& value) {
+    int count = 0;
     for (SceneAttribute& a : element.attributes) {
       for (std::size_t at = a.value.find(key); at != std::string::npos;
            at = a.value.find(key, at + value.size())) {
         a.value.replace(at, key.size(), value);
+        ++count;
       }
     }
-    for (SceneElement& child : element.children) substitute(child, key, value);
+    for (SceneElement& child : element.children) count += substitute(child, key, value);
+    return count;
   }
 
-  static void replace(SceneElement& element, const std::string& onlyNamed,
-                      const SceneAttribute& value) {
+  static int replace(SceneElement& element, const std::string& onlyNamed,
+                     const SceneAttribute& value) {
+    int count = 0;
     const SceneAttribute* name = element.find("name");
     if (onlyNamed.empty() || (name && name->value == onlyNamed)) {
       for (SceneAttribute& a : element.attributes) {
-        if (a.name == value.name) a = value;
+        if (a.name != value.name) continue;
+        a = value;
+        ++count;
       }
     }
-    for (SceneElement& child : element.children) replace(child, onlyNamed, value);
+    for (SceneElement& child : element.children) count += replace(child, onlyNamed, value);
+    return count;
+  }
+
+  static void collectNames(const SceneElement& element, std::vector<std::string>& names) {
+    for (const SceneAttribute& a : element.attributes) names.push_back(a.name);
+    for (const SceneElement& child : element.children) collectNames(child, names);
   }
 
   const std::vector<fs::path>& dataFolders_;
@@ -241,11 +266,10 @@ std::optional<SceneElement> parseSceneText(std::shared_ptr<const SourceText> sou
   }
   bool good = true;
   if (const auto* second = root->NextSiblingElement()) {
-    diagnostics.error("xml-two-roots",
-                      "a scene has one root element; '" + std::string(second->Value()) +
-                          "' is a second one",
-                      locator.at(second->Value(), second->GetLineNum()),
-                      "put both into one Node");
+    diagnostics.error(
+        "xml-two-roots",
+        "a scene has one root element; '" + std::string(second->Value()) + "' is a second one",
+        locator.at(second->Value(), second->GetLineNum()), "put both into one Node");
     good = false;
   }
   SceneElement element;

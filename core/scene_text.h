@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The elements of a scene file with the place of every name and value, includes and parameters expanded.
+// The elements of a scene file with the place of every name and value, includes and parameters
+// expanded.
 #pragma once
 
 #include <filesystem>
@@ -30,17 +31,17 @@ struct SceneElement {
 [[nodiscard]] std::optional<SceneElement> parseSceneText(std::shared_ptr<const SourceText> source,
                                                          Diagnostics& diagnostics);
 
-// Looks a file up: as it is when absolute, else beside `relativeTo`, then in the data folders. On failure
-// `searched` lists the places.
+// Looks a file up: as it is when absolute, else beside `relativeTo`, then in the data folders. On
+// failure `searched` lists the places.
 [[nodiscard]] std::optional<std::filesystem::path> findFile(
     const std::string& name, const std::filesystem::path& relativeTo,
     const std::vector<std::filesystem::path>& dataFolders, std::string& searched);
 
 // Reads a scene file and expands its includes:
 //   <include href="file.xml" name="X" attr="v" Child__attr="v" param.p="v"/>
-// The included root becomes a node X; when its name is Group or _Group_ its children are spliced in.
-// `attr` replaces that attribute in every element below that has it, `Child__attr` only in elements named
-// Child, and `param.p` replaces ${p} in values.
+// The included root becomes a node X; when its name is Group or _Group_ its children are spliced
+// in. `attr` replaces that attribute in every element below that has it, `Child__attr` only in
+// elements named Child, and `param.p` replaces ${p} in values.
 [[nodiscard]] std::optional<SceneElement> readSceneFile(
     const std::filesystem::path& file, const std::vector<std::filesystem::path>& dataFolders,
     Diagnostics& diagnostics);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The schedule: the flat list of calls that one step makes, compiled once from the scene. A component that
-// adds no call costs nothing in a step.
+// The schedule: the flat list of calls that one step makes, compiled once from the scene. A
+// component that adds no call costs nothing in a step.
 #pragma once
 
 #include <array>

@@ -106,7 +106,8 @@ std::string readCheckpoint(const std::string& file, Snapshot& snapshot, std::uin
   Snapshot read;
   if (!cursor.takeText(buildId) || !cursor.take(&scene, sizeof scene)) return broken;
   if (buildId != coreBuildId()) {
-    return "'" + file + "' was written by another build (" + buildId + "): it cannot be resumed exactly";
+    return "'" + file + "' was written by another build (" + buildId +
+           "): it cannot be resumed exactly";
   }
   if (scene != sceneHash) {
     return "'" + file + "' belongs to another scene or to other --set values";

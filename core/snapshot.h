@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exact copies of a simulation's state: time, positions, velocities and what components add. Restoring one
-// continues with the same bits as if the run had not stopped.
+// Exact copies of a simulation's state: time, positions, velocities and what components add.
+// Restoring one continues with the same bits as if the run had not stopped.
 #pragma once
 
 #include <cstddef>

@@ -35,25 +35,55 @@ constexpr std::array renames = {
     Names{"SparseGrid", "SparseGridTopology"},
 };
 
-constexpr std::array<std::string_view, 27> ignoredElements = {
-    "VisualStyle", "DefaultVisualManagerLoop", "BackgroundSetting", "Background", "ViewerSetting",
-    "Viewer", "InteractiveCamera", "OglSceneFrame", "VisualGrid", "LineAxis", "LightManager",
-    "DirectionalLight", "SpotLight", "PositionalLight", "DefaultCollisionGroupManager",
-    "CollisionGroupManager", "TetrahedronSetGeometryAlgorithms", "TriangleSetGeometryAlgorithms",
-    "EdgeSetGeometryAlgorithms", "PointSetGeometryAlgorithms", "QuadSetGeometryAlgorithms",
-    "HexahedronSetGeometryAlgorithms", "UncoupledConstraintCorrection",
-    "LinearSolverConstraintCorrection", "MouseConfiguration", "AddFrameButtonSetting", "SofaDefaultPathSetting"};
+constexpr std::array<std::string_view, 27> ignoredElements = {"VisualStyle",
+                                                              "DefaultVisualManagerLoop",
+                                                              "BackgroundSetting",
+                                                              "Background",
+                                                              "ViewerSetting",
+                                                              "Viewer",
+                                                              "InteractiveCamera",
+                                                              "OglSceneFrame",
+                                                              "VisualGrid",
+                                                              "LineAxis",
+                                                              "LightManager",
+                                                              "DirectionalLight",
+                                                              "SpotLight",
+                                                              "PositionalLight",
+                                                              "DefaultCollisionGroupManager",
+                                                              "CollisionGroupManager",
+                                                              "TetrahedronSetGeometryAlgorithms",
+                                                              "TriangleSetGeometryAlgorithms",
+                                                              "EdgeSetGeometryAlgorithms",
+                                                              "PointSetGeometryAlgorithms",
+                                                              "QuadSetGeometryAlgorithms",
+                                                              "HexahedronSetGeometryAlgorithms",
+                                                              "UncoupledConstraintCorrection",
+                                                              "LinearSolverConstraintCorrection",
+                                                              "MouseConfiguration",
+                                                              "AddFrameButtonSetting",
+                                                              "SofaDefaultPathSetting"};
 
-constexpr std::array<std::string_view, 16> ignoredNodeAttributes = {
-    "tags", "printLog", "listening", "sleeping", "canChangeSleepingState", "showBoundingTree",
-    "showBehaviorModels", "showVisualModels", "showCollisionModels", "showBoundingCollisionModels",
-    "showMappings", "showMechanicalMappings", "showForceFields", "showInteractionForceFields",
-    "showWireFrame", "showNormals"};
+constexpr std::array<std::string_view, 16> ignoredNodeAttributes = {"tags",
+                                                                    "printLog",
+                                                                    "listening",
+                                                                    "sleeping",
+                                                                    "canChangeSleepingState",
+                                                                    "showBoundingTree",
+                                                                    "showBehaviorModels",
+                                                                    "showVisualModels",
+                                                                    "showCollisionModels",
+                                                                    "showBoundingCollisionModels",
+                                                                    "showMappings",
+                                                                    "showMechanicalMappings",
+                                                                    "showForceFields",
+                                                                    "showInteractionForceFields",
+                                                                    "showWireFrame",
+                                                                    "showNormals"};
 
 // of any component
 constexpr std::array<std::string_view, 8> ignoredAttributes = {
-    "listening", "tags", "drawSize", "showObject", "showObjectScale", "showIndices", "showColor",
-    "drawMode"};
+    "listening",       "tags",        "drawSize",  "showObject",
+    "showObjectScale", "showIndices", "showColor", "drawMode"};
 
 // of one component
 constexpr std::array ofComponent = {
@@ -96,7 +126,8 @@ std::string_view currentName(std::string_view component) {
 bool isIgnoredElement(std::string_view component) { return contains(ignoredElements, component); }
 
 bool isIgnoredNodeAttribute(std::string_view name) {
-  return name == "depend" || name == "multiThreadSimulation" || contains(ignoredNodeAttributes, name);
+  return name == "depend" || name == "multiThreadSimulation" ||
+         contains(ignoredNodeAttributes, name);
 }
 
 bool isIgnoredAttribute(std::string_view component, std::string_view name) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a solver sees: the positions and velocities of all independent states it governs, in one allocation,
-// with the forces, constraints and mappings that act on them.
+// What a solver sees: the positions and velocities of all independent states it governs, in one
+// allocation, with the forces, constraints and mappings that act on them.
 #pragma once
 
 #include <memory>
@@ -21,8 +21,8 @@ class Node;
 
 class System {
  public:
-  // Gathers what the integrator governs: its node and everything below, down to the next integrator.
-  // Problems (a mass on a mapped state, ...) are reported at the components concerned.
+  // Gathers what the integrator governs: its node and everything below, down to the next
+  // integrator. Problems (a mass on a mapped state, ...) are reported at the components concerned.
   explicit System(Integrator& integrator);
 
   // Number of particles of the independent states, concatenated in document order.
@@ -31,8 +31,10 @@ class System {
   [[nodiscard]] Vec3Span v() { return v_; }
   [[nodiscard]] Vec3Span f() { return f_; }
   [[nodiscard]] ConstVec3Span rest() const { return rest_; }
-  [[nodiscard]] std::span<const double> mass() const { return mass_; }         // kg
-  [[nodiscard]] std::span<const double> inverseMass() const { return inverseMass_; }  // 0 for mass 0
+  [[nodiscard]] std::span<const double> mass() const { return mass_; }  // kg
+  [[nodiscard]] std::span<const double> inverseMass() const {
+    return inverseMass_;
+  }  // 0 for mass 0
   // First massless particle, -1 if there is none. Integrators that need masses report it.
   [[nodiscard]] Index masslessParticle() const;
   // "/cornea/particles, particle 17" for a particle of the system.
@@ -53,8 +55,8 @@ class System {
   // Held directions, at most one entry a particle, in the system's numbering.
   [[nodiscard]] const std::vector<ParticleProjector>& projectors() const { return projectors_; }
 
-  // Pattern of the assembled derivative; parts that cannot be assembled (forces on mapped states, force
-  // fields without blocks) are left out, and `complete` tells.
+  // Pattern of the assembled derivative; parts that cannot be assembled (forces on mapped states,
+  // force fields without blocks) are left out, and `complete` tells.
   [[nodiscard]] BlockPattern pattern(bool& complete) const;
   void addTangent(BlockMatrix& matrix, double stiffness, double damping) const;
 
@@ -96,7 +98,8 @@ class System {
   [[nodiscard]] std::size_t slotOf(const MechanicalState& state) const;
   template <class Span>
   [[nodiscard]] Span part(const Slot& slot, Span whole, Span mapped) const {
-    return slot.mapped ? mapped : whole.subspan(static_cast<std::size_t>(slot.offset), slot.count());
+    return slot.mapped ? mapped
+                       : whole.subspan(static_cast<std::size_t>(slot.offset), slot.count());
   }
   [[nodiscard]] StateView viewOf(const Slot& slot, const StateView& at) const;
   void mapDown(const StateView& at) const;
@@ -114,8 +117,9 @@ class System {
   std::vector<ParticleProjector> projectors_;
 };
 
-// The matrix of an implicit step, A = mass M - damping df/dv - stiffness df/dx, restricted to the free
-// directions (identity on the held ones). It refers to the state last given to System::linearize.
+// The matrix of an implicit step, A = mass M - damping df/dv - stiffness df/dx, restricted to the
+// free directions (identity on the held ones). It refers to the state last given to
+// System::linearize.
 struct SystemMatrix {
   System& system;
   double mass, damping, stiffness;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The few types that everything else is written in. Lengths, masses, times are SI inside the library.
+// The few types that everything else is written in. Lengths, masses, times are SI inside the
+// library.
 #pragma once
 
 #include <Eigen/Core>

@@ -19,7 +19,10 @@ void TractionForceField::bind() {
   Mat3 tensor = Mat3::Zero();
   if (stress.isSet()) {
     const std::vector<double>& s = stress;
-    if (s.size() != 6) return;
+    if (s.size() != 6) {
+      error(stress, "value-count", "has " + std::to_string(s.size()) + " numbers, expected 6");
+      return;
+    }
     tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
   }
   const ConstVec3Span rest = state().rest();

@@ -22,6 +22,11 @@ void MeshExporter::bind() {
   }
 }
 
+void MeshExporter::reset() {
+  ended_ = false;
+  Recorder::reset();
+}
+
 void MeshExporter::stop() {
   ended_ = true;
   setLastStep(std::nullopt);

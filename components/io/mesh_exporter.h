@@ -29,6 +29,7 @@ class MeshExporter final : public Recorder {
                   {.required = false}};
 
   void bind() override;
+  void reset() override;
   void stop() override;
 
  protected:

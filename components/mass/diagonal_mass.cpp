@@ -19,8 +19,9 @@ void DiagonalMass::bind() {
   if (vertexMass.isSet()) {
     mass_ = vertexMass;
     if (mass_.size() != particles) {
-      error(vertexMass, "mass-size", "has " + std::to_string(mass_.size()) + " values for " +
-                                         std::to_string(particles) + " particles");
+      error(vertexMass, "mass-size",
+            "has " + std::to_string(mass_.size()) + " values for " + std::to_string(particles) +
+                " particles");
     }
     return;
   }
@@ -29,8 +30,9 @@ void DiagonalMass::bind() {
     mass_.assign(topology->volumes().begin(), topology->volumes().end());
   }
   if (mass_.size() != particles) {
-    error("mass-volume", "knows " + std::to_string(mass_.size()) + " volumes for " +
-                             std::to_string(particles) + " particles",
+    error("mass-volume",
+          "knows " + std::to_string(mass_.size()) + " volumes for " + std::to_string(particles) +
+              " particles",
           "volumes come from a ParticleSampler, a RegularGridTopology or 'volume'");
     return;
   }

@@ -90,9 +90,12 @@ class MLSForceField final : public ForceField {
                                   0.0,
                                   "Support by radius instead of by count.",
                                   {.unit = "m", .min = 0, .exclusiveMin = true}};
-  Attribute<double> supportSpacings{this, "supportSpacings", 0.0,
-                                    "Support by radius, in particle spacings; 1.6 suits ellipsoids.",
-                                    {.min = 0, .exclusiveMin = true}};
+  Attribute<double> supportSpacings{
+      this,
+      "supportSpacings",
+      0.0,
+      "Support by radius, in particle spacings; 1.6 suits ellipsoids.",
+      {.min = 0, .exclusiveMin = true}};
   Attribute<double> supportReach{this,
                                  "supportReach",
                                  1.2,

@@ -21,8 +21,12 @@ class MLSMapping final : public Mapping {
       {.min = 0}};
   Link<MechanicalState> in{this, "input", "Particles.", Lookup::parent};
   Link<MechanicalState> out{this, "output", "Surface nodes.", Lookup::sameNode};
-  Link<Mesh> surface{this, "topology", "Triangles between the nodes; nodes without any are mapped as "
-                     "single points.", Lookup::sameNode, {.required = false}};
+  Link<Mesh> surface{this,
+                     "topology",
+                     "Triangles between the nodes; nodes without any are mapped as "
+                     "single points.",
+                     Lookup::sameNode,
+                     {.required = false}};
   Link<MLSForceField> forceField{this, "forceField",
                                  "Force field of the particles, which knows their "
                                  "neighbourhoods.",

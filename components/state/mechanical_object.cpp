@@ -16,18 +16,19 @@ void MechanicalObject::bind() {
     return;
   }
   const Vec3 angle = rotation.value() * (std::numbers::pi / 180);
-  const Mat3 r = (Eigen::AngleAxisd(angle.z(), Vec3::UnitZ()) *
-                  Eigen::AngleAxisd(angle.y(), Vec3::UnitY()) *
-                  Eigen::AngleAxisd(angle.x(), Vec3::UnitX()))
-                     .toRotationMatrix();
+  const Mat3 r =
+      (Eigen::AngleAxisd(angle.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(angle.y(), Vec3::UnitY()) *
+       Eigen::AngleAxisd(angle.x(), Vec3::UnitX()))
+          .toRotationMatrix();
   const bool moved = translation.isSet() || rotation.isSet() || scale.isSet();
   if (moved) {
     for (Vec3& x : initialX_) x = r * scale->cwiseProduct(x) + *translation;
   }
   rest_ = restPosition->empty() ? initialX_ : *restPosition;
   if (rest_.size() != initialX_.size()) {
-    error(restPosition, "state-size", "has " + std::to_string(rest_.size()) + " points, 'position' " +
-                                          std::to_string(initialX_.size()));
+    error(restPosition, "state-size",
+          "has " + std::to_string(rest_.size()) + " points, 'position' " +
+              std::to_string(initialX_.size()));
     return;
   }
   initialV_ = velocity;
@@ -35,8 +36,9 @@ void MechanicalObject::bind() {
     initialV_.assign(initialX_.size(), initialV_.empty() ? Vec3::Zero().eval() : initialV_.front());
   }
   if (initialV_.size() != initialX_.size()) {
-    error(velocity, "state-size", "has " + std::to_string(initialV_.size()) + " values for " +
-                                      std::to_string(initialX_.size()) + " particles");
+    error(velocity, "state-size",
+          "has " + std::to_string(initialV_.size()) + " values for " +
+              std::to_string(initialX_.size()) + " particles");
   }
 }
 

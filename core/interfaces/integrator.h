@@ -7,8 +7,8 @@
 
 namespace stroma {
 
-// Advances the states of its node and of everything below it, down to the next integrator. SOFA calls
-// these "ODE solvers".
+// Advances the states of its node and of everything below it, down to the next integrator. SOFA
+// calls these "ODE solvers".
 class Integrator : public Component {
  public:
   static constexpr std::string_view role = "Integrator";

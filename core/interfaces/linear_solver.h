@@ -17,8 +17,8 @@ class LinearSolver : public Component {
  public:
   static constexpr std::string_view role = "LinearSolver";
 
-  // The matrix changes a little from call to call; a solver may keep what it prepared earlier as long as
-  // the result is within its tolerance. `x` is the start value on entry.
+  // The matrix changes a little from call to call; a solver may keep what it prepared earlier as
+  // long as the result is within its tolerance. `x` is the start value on entry.
   virtual LinearSolution solve(const SystemMatrix& matrix, ConstVec3Span b, Vec3Span x) = 0;
 };
 

@@ -5,15 +5,16 @@
 
 namespace stroma {
 
-// A state whose positions follow linearly from another's: x_out = J x_in + c, v_out = J v_in, and forces
-// travel back by the exact transpose, f_in += J^T f_out.
+// A state whose positions follow linearly from another's: x_out = J x_in + c, v_out = J v_in, and
+// forces travel back by the exact transpose, f_in += J^T f_out.
 class Mapping : public Component {
  public:
   static constexpr std::string_view role = "Mapping";
 
-  Attribute<bool> visual{this, "visual", false,
-                         "The output is only looked at: it follows at the visual rate. One that carries "
-                         "forces follows in every step all the same."};
+  Attribute<bool> visual{
+      this, "visual", false,
+      "The output is only looked at: it follows at the visual rate. One that carries "
+      "forces follows in every step all the same."};
 
   [[nodiscard]] virtual MechanicalState& input() const = 0;
   [[nodiscard]] virtual MechanicalState& output() const = 0;

@@ -15,8 +15,9 @@ struct StateView {
   [[nodiscard]] Index size() const { return static_cast<Index>(x.size()); }
 };
 
-// Number of particles and their rest positions are fixed in bind(). The storage of x, v and f belongs to
-// the System of the solver that governs the state (one allocation for all of its states).
+// Number of particles and their rest positions are fixed in bind(). The storage of x, v and f
+// belongs to the System of the solver that governs the state (one allocation for all of its
+// states).
 class MechanicalState : public Component {
  public:
   static constexpr std::string_view role = "MechanicalState";

@@ -25,8 +25,8 @@ struct SurfaceView {
   std::span<const Triangle> triangles;
 };
 
-// The mesh of a node: its state takes positions from here, its force fields elements. A loader is only
-// a Mesh (several may be in one node); a topology is the node's own.
+// The mesh of a node: its state takes positions from here, its force fields elements. A loader is
+// only a Mesh (several may be in one node); a topology is the node's own.
 class Topology : public Mesh {
  public:
   static constexpr std::string_view role = "Topology";

@@ -11,7 +11,8 @@ struct ParticleProjector {
   Mat3 projector;  // symmetric, idempotent; zero = held
 };
 
-// Holds particles, wholly or in some directions, by projecting every increment of velocity and position.
+// Holds particles, wholly or in some directions, by projecting every increment of velocity and
+// position.
 class ProjectiveConstraint : public Component {
  public:
   static constexpr std::string_view role = "ProjectiveConstraint";

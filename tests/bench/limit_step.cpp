@@ -34,7 +34,8 @@ struct LimitStep::Data {
   std::vector<Columns> stress;
 
   Lanes force(std::size_t i) const {
-    Lanes f = stress[i].c[0] * self[i][0] + stress[i].c[1] * self[i][1] + stress[i].c[2] * self[i][2];
+    Lanes f =
+        stress[i].c[0] * self[i][0] + stress[i].c[1] * self[i][1] + stress[i].c[2] * self[i][2];
     for (std::size_t b = backBegin[i]; b < backBegin[i + 1]; ++b) {
       const Columns& s = stress[static_cast<std::size_t>(back[b].j)];
       f += s.c[0] * back[b].g[0] + s.c[1] * back[b].g[1] + s.c[2] * back[b].g[2];
@@ -63,7 +64,8 @@ struct LimitStep::Data {
 LimitStep::LimitStep(Index nx, Index ny, Index nz, Index neighbours)
     : data_(std::make_unique<Data>()) {
   Data& d = *data_;
-  d.count = static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz);
+  d.count =
+      static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz);
   d.perParticle = static_cast<std::size_t>(neighbours);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> jitter(-0.15, 0.15);
@@ -101,7 +103,8 @@ LimitStep::LimitStep(Index nx, Index ny, Index nz, Index neighbours)
     }
     const Mat3 inverse = M.inverse();
     for (const auto& [squared, j] : near) {
-      const Vec3 g = std::pow(1 - squared / support, 3) * inverse * (X[static_cast<std::size_t>(j)] - X[i]);
+      const Vec3 g =
+          std::pow(1 - squared / support, 3) * inverse * (X[static_cast<std::size_t>(j)] - X[i]);
       d.own.push_back({{g.x(), g.y(), g.z()}, j});
       d.self[i] -= Lanes{g.x(), g.y(), g.z(), 0};
       ++d.backBegin[static_cast<std::size_t>(j) + 1];

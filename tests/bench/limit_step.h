@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one explicit total-Lagrangian step costs when nothing but its arithmetic is there: the yardstick that
-// the engine's own step is compared with in the same run.
+// What one explicit total-Lagrangian step costs when nothing but its arithmetic is there: the
+// yardstick that the engine's own step is compared with in the same run.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Benchmarks of the engine, each through a scene. CPU time of the calling thread; see tests/bench/README.md.
+// Benchmarks of the engine, each through a scene. CPU time of the calling thread; see
+// tests/bench/README.md.
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -20,10 +21,12 @@ constexpr Lattice lattices[] = {{729, 9, 9, 9}, {3136, 16, 14, 14}, {1000000, 10
 std::string explicitScene(const Lattice& n, double control) {
   std::ostringstream xml;
   xml << "<Node dt=\"0.001\" gravity=\"0 0 0\"><EulerExplicitSolver substeps=\"1\"/>"
-      << "<ParticleSampler name=\"particles\" layout=\"lattice\" n=\"" << n.nx << " " << n.ny << " " << n.nz
-      << "\" min=\"0 0 0\" max=\"" << n.nx << " " << n.ny << " " << n.nz << "\" jitter=\"0.15\"/>"
+      << "<ParticleSampler name=\"particles\" layout=\"lattice\" n=\"" << n.nx << " " << n.ny << " "
+      << n.nz << "\" min=\"0 0 0\" max=\"" << n.nx << " " << n.ny << " " << n.nz
+      << "\" jitter=\"0.15\"/>"
       << "<MechanicalObject name=\"state\"/><DiagonalMass massDensity=\"1000\"/>"
-      << "<MLSForceField strain=\"green\" youngModulus=\"1000\" poissonRatio=\"0.33\" supportCount=\"16\" "
+      << "<MLSForceField strain=\"green\" youngModulus=\"1000\" poissonRatio=\"0.33\" "
+         "supportCount=\"16\" "
       << "zeroEnergyControl=\"" << control << "\"/></Node>";
   return xml.str();
 }
@@ -43,15 +46,17 @@ void explicitStep(benchmark::State& state, const Lattice& n, double control) {
   for (auto _ : state) {
     if (!scene->step()) state.SkipWithError(scene->divergence()->message.c_str());
   }
-  state.counters["ns_per_particle"] = benchmark::Counter(
-      n.particles * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["ns_per_particle"] =
+      benchmark::Counter(n.particles * 1e-9, benchmark::Counter::kIsIterationInvariantRate |
+                                                 benchmark::Counter::kInvert);
 }
 
 void limitStep(benchmark::State& state, const Lattice& n) {
   LimitStep limit(n.nx, n.ny, n.nz, 16);
   for (auto _ : state) limit.step();
-  state.counters["ns_per_particle"] = benchmark::Counter(
-      n.particles * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["ns_per_particle"] =
+      benchmark::Counter(n.particles * 1e-9, benchmark::Counter::kIsIterationInvariantRate |
+                                                 benchmark::Counter::kInvert);
 }
 
 class Idle final : public Component {
@@ -109,15 +114,18 @@ void step(benchmark::State& state, const char* file) {
 void registerAll() {
   for (const Lattice& n : lattices) {
     const std::string size = "/" + std::to_string(n.particles);
-    benchmark::RegisterBenchmark(("limit_step" + size).c_str(), limitStep, n)->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(("limit_step" + size).c_str(), limitStep, n)
+        ->Unit(benchmark::kMillisecond);
     benchmark::RegisterBenchmark(("explicit_step" + size).c_str(), explicitStep, n, 0.0)
         ->Unit(benchmark::kMillisecond);
     benchmark::RegisterBenchmark(("explicit_step_controlled" + size).c_str(), explicitStep, n, 0.3)
         ->Unit(benchmark::kMillisecond);
   }
   benchmark::RegisterBenchmark("schedule_overhead", scheduleOverhead);
-  benchmark::RegisterBenchmark("cornea_load", load, "/cornea/pull.xml")->Unit(benchmark::kMillisecond);
-  benchmark::RegisterBenchmark("cornea_step", step, "/cornea/pull.xml")->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("cornea_load", load, "/cornea/pull.xml")
+      ->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("cornea_step", step, "/cornea/pull.xml")
+      ->Unit(benchmark::kMillisecond);
 }
 
 }  // namespace

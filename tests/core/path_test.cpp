@@ -13,7 +13,8 @@ class PathTest : public testing::Test {
   PathTest() {
     EXPECT_TRUE(scene->loadText(R"(<Node name="root"><Counter name="top"/>
       <Node name="a"><Counter name="x"/><Counter name="y"/><Node name="b"><Counter name="z"/></Node></Node>
-      <Node name="c"><Counter name="x"/></Node></Node>)", "s.xml"))
+      <Node name="c"><Counter name="x"/></Node></Node>)",
+                                "s.xml"))
         << scene->diagnostics().text();
     a = scene->root().children()[0].get();
     b = a->children()[0].get();

@@ -54,14 +54,17 @@ TEST(Scene, reportsAllProblemsInOnePass) {
   <Tether stiffness="1 kPa" state="@q"/>)")));
   EXPECT_EQ(scene->diagnostics().errorCount(), 5) << scene->diagnostics().text();
   const std::string text = scene->diagnostics().text();
-  EXPECT_NE(text.find("scene.xml:2:4: error: unknown component 'Pointz'"), std::string::npos) << text;
+  EXPECT_NE(text.find("scene.xml:2:4: error: unknown component 'Pointz'"), std::string::npos)
+      << text;
   EXPECT_NE(text.find("did you mean 'position'?"), std::string::npos) << text;
   EXPECT_NE(text.find("out of range: it must be at least 0 N/m"), std::string::npos) << text;
 }
 
 TEST(Scene, columnsSurviveEntitiesBomAndLineEnds) {
   auto scene = makeScene();
-  const std::string xml = "\xEF\xBB\xBF<!-- c &amp; -->\r\n<Node name=\"a&lt;b\">\r\n  <Points\r\n    positon=\"1\"/>\r\n</Node>";
+  const std::string xml =
+      "\xEF\xBB\xBF<!-- c &amp; -->\r\n<Node name=\"a&lt;b\">\r\n  <Points\r\n    "
+      "positon=\"1\"/>\r\n</Node>";
   EXPECT_FALSE(scene->loadText(xml, "s.xml"));
   EXPECT_EQ(scene->diagnostics().all()[0].where.text(), "s.xml:4:5");
 }
@@ -77,7 +80,8 @@ TEST(Scene, unitsOfBareNumbersFollowTheNode) {
 
 TEST(Scene, cyclesOfLinksAreNamed) {
   auto scene = makeScene();
-  EXPECT_FALSE(ready(*scene, wrapped(R"(<Counter name="a" other="@b"/><Counter name="b" other="@a"/>)")));
+  EXPECT_FALSE(
+      ready(*scene, wrapped(R"(<Counter name="a" other="@b"/><Counter name="b" other="@a"/>)")));
   EXPECT_NE(scene->diagnostics().text().find("/a -> /b -> /a"), std::string::npos)
       << scene->diagnostics().text();
 }
@@ -87,7 +91,8 @@ TEST(Scene, dataLinksConvertThroughText) {
   ASSERT_TRUE(ready(*scene, wrapped(R"(<Counter name="a" numbers="3 4"/>
     <Counter name="b" indices="@a.numbers" />)")))
       << scene->diagnostics().text();
-  EXPECT_EQ(static_cast<Counter&>(component(*scene, "b")).indices->indices, (std::vector<Index>{3, 4}));
+  EXPECT_EQ(static_cast<Counter&>(component(*scene, "b")).indices->indices,
+            (std::vector<Index>{3, 4}));
 }
 
 TEST(Scene, dataLinkOfWrongTypeIsAnError) {
@@ -135,7 +140,8 @@ TEST(Scene, stateWithoutSolverIsAnError) {
 
 TEST(Scene, guardNamesForceFieldParticleAndStep) {
   auto scene = makeScene();
-  ASSERT_TRUE(ready(*scene, wrapped(R"(<SymplecticEuler name="solver"/><Points name="points" position="1 0 0"/>
+  ASSERT_TRUE(ready(
+      *scene, wrapped(R"(<SymplecticEuler name="solver"/><Points name="points" position="1 0 0"/>
     <UnitMass/><Tether name="good"/><Tether name="bad" poison="0.0495 s"/>)")))
       << scene->diagnostics().text();
   int steps = 0;
@@ -214,7 +220,8 @@ TEST(Scene, componentsThatDoNothingAddNoCall) {
   auto scene = makeScene();
   ASSERT_TRUE(ready(*scene, wrapped(body)));
   std::size_t calls = 0;
-  for (int s = 0; s < stageCount; ++s) calls += scene->schedule().stage(static_cast<Stage>(s)).size();
+  for (int s = 0; s < stageCount; ++s)
+    calls += scene->schedule().stage(static_cast<Stage>(s)).size();
   EXPECT_EQ(calls, 1u) << scene->schedule().text();  // the solver alone
 }
 
@@ -245,7 +252,8 @@ TEST(Scene, lenientModeWarns) {
 
 TEST(Scene, sofaElementsAndCommentsAreAccepted) {
   auto scene = makeScene();
-  ASSERT_TRUE(ready(*scene, wrapped(body + R"(<RequiredPlugin pluginName="Sofa.Component.Mass SofaX"/>
+  ASSERT_TRUE(
+      ready(*scene, wrapped(body + R"(<RequiredPlugin pluginName="Sofa.Component.Mass SofaX"/>
     <VisualStyle displayFlags="showAll"/><Object type="Counter" name="o" _increment="zzz" NOnumbers="q"
     template="Vec3d" printLog="1" tags="a"/><Node name="n">
     <OldPoints name="old" position="0 0 0" template="Vec3d"/></Node>)")))

@@ -32,8 +32,8 @@ TEST(System, concatenatesStatesAndMapsForcesBack) {
   // -3 x - 10/4 x from the mapped half, and gravity of the node
   EXPECT_TRUE(s.f()[0].isApprox(Vec3(-5.5, 0, -2)));
   EXPECT_TRUE(s.f()[2].isApprox(Vec3(0, -35, 0)));
-  EXPECT_NEAR(s.potentialEnergy({s.x(), s.v(), 0}),
-              0.5 * 3 * 5 + 0.5 * 10 * 5 / 4 + 0.5 * 7 * 25, 1e-12);
+  EXPECT_NEAR(s.potentialEnergy({s.x(), s.v(), 0}), 0.5 * 3 * 5 + 0.5 * 10 * 5 / 4 + 0.5 * 7 * 25,
+              1e-12);
 }
 
 TEST(System, tangentProductMatchesForceDifferences) {

@@ -15,8 +15,8 @@ namespace stroma::test {
 
 class Points final : public MechanicalState {
  public:
-  Attribute<std::vector<Vec3>> position{this, "position", {}, "Initial positions.",
-                                        {.unit = "m", .autolink = true}};
+  Attribute<std::vector<Vec3>> position{
+      this, "position", {}, "Initial positions.", {.unit = "m", .autolink = true}};
   void bind() override {
     rest_ = initialX_ = position;
     initialV_.assign(rest_.size(), Vec3::Zero());
@@ -35,10 +35,13 @@ class UnitMass final : public Mass {
 // f = -k x - c v
 class Tether final : public ForceField {
  public:
-  Attribute<double> stiffness{this, "stiffness", 1.0, "Pull.", {.unit = "N/m", .min = 0, .runtime = true}};
+  Attribute<double> stiffness{
+      this, "stiffness", 1.0, "Pull.", {.unit = "N/m", .min = 0, .runtime = true}};
   Attribute<double> damping{this, "damping", 0.0, "Drag.", {.unit = "N s/m"}};
-  Attribute<double> poison{this, "poison", -1.0, "Time from which the force is NaN.", {.unit = "s"}};
-  Link<MechanicalState> points{this, "state", "Particles.", Lookup::sameNode, {.aliases = "mstate"}};
+  Attribute<double> poison{
+      this, "poison", -1.0, "Time from which the force is NaN.", {.unit = "s"}};
+  Link<MechanicalState> points{
+      this, "state", "Particles.", Lookup::sameNode, {.aliases = "mstate"}};
   [[nodiscard]] MechanicalState& state() const override { return *points; }
   void addForce(const StateView& at, Vec3Span f) override {
     for (std::size_t i = 0; i < f.size(); ++i) f[i] -= *stiffness * at.x[i] + *damping * at.v[i];
@@ -92,7 +95,8 @@ class SymplecticEuler final : public Integrator {
 class Counter final : public Component {
  public:
   Attribute<int> increment{this, "increment", 1, "Added in every step.", {.runtime = true}};
-  Attribute<std::vector<double>> numbers{this, "numbers", {}, "For data links.", {.autolink = true}};
+  Attribute<std::vector<double>> numbers{
+      this, "numbers", {}, "For data links.", {.autolink = true}};
   Attribute<IndexList> indices{this, "indices", {}, "For data links."};
   Attribute<double> sum{this, "sum", 0.0, "Sum so far.", {.output = true}};
   Link<Counter> other{this, "other", "For link cycles.", Lookup::explicitOnly, {.required = false}};

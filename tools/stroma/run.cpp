@@ -252,7 +252,8 @@ void addRun(CLI::App& app, int& exitCode) {
   command->footer(
       "--steps and --time count from the start of the scene, also after --resume.\n"
       "An interrupt (Ctrl-C) finishes the step, closes the files and prints the summary.\n"
-      "A run that diverges leaves its last good positions and velocities in OUT/last_good.checkpoint,\n"
+      "A run that diverges leaves its last good positions and velocities in "
+      "OUT/last_good.checkpoint,\n"
       "to look at: resuming it unchanged diverges again.\n"
       "Examples:\n"
       "  stroma run scenes/cornea/pull.xml\n"
