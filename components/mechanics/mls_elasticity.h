@@ -88,7 +88,7 @@ class MlsElasticity {
     return A;
   }
 
-  Columns stressOf(const Columns& h) const {
+  [[gnu::always_inline]] Columns stressOf(const Columns& h) const {
     if constexpr (requires(Vec4 v) { material_.stressColumns(v, v, v, v, v, v); }) {
       Columns p;
       material_.stressColumns(h.c[0] + Vec4{1, 0, 0, 0}, h.c[1] + Vec4{0, 1, 0, 0},
@@ -111,17 +111,29 @@ class MlsElasticity {
     });
   }
 
-  Columns gradientOf(Index i) const {
-    Vec4 h0{}, h1{}, h2{};
+  // Even and odd bonds have sums of their own: one chain of additions would wait for itself.
+  [[gnu::always_inline]] Columns gradientOf(Index i) const {
+    Vec4 h0{}, h1{}, h2{}, k0{}, k1{}, k2{};
     const Vec4 ui = motion_[i].value;
     const Bond* bond = bonds_.own(i);
-    for (const Bond* end = bond + bonds_.ownRow(i).size; bond != end; ++bond) {
+    const Bond* end = bond + bonds_.ownRow(i).size;
+    for (; bond + 1 < end; bond += 2) {
+      const Vec4 d = motion_[bond[0].particle].value - ui;
+      const Vec4 e = motion_[bond[1].particle].value - ui;
+      h0 += d * bond[0].g[0];
+      h1 += d * bond[0].g[1];
+      h2 += d * bond[0].g[2];
+      k0 += e * bond[1].g[0];
+      k1 += e * bond[1].g[1];
+      k2 += e * bond[1].g[2];
+    }
+    if (bond != end) {
       const Vec4 d = motion_[bond->particle].value - ui;
       h0 += d * bond->g[0];
       h1 += d * bond->g[1];
       h2 += d * bond->g[2];
     }
-    return {{h0, h1, h2}};
+    return {{h0 + k0, h1 + k1, h2 + k2}};
   }
   Mat3 deformationOf(Index i) const {
     const Columns h = gradientOf(i);
@@ -134,10 +146,10 @@ class MlsElasticity {
   void addMotionProduct(double factor, Vec3Span df);
   // stress_[i] and residual_[i] from the motion; response maps its gradient to a stress.
   template <bool Control, class Response>
-  void gatherStress(Index i, Response&& response);
+  [[gnu::always_inline]] void gatherStress(Index i, Response&& response);
   // Force on i from the stresses of the particles that have it as a neighbour, and its own.
   template <bool Control>
-  Vec4 gatherForce(Index i) const;
+  [[gnu::always_inline]] Vec4 gatherForce(Index i) const;
 
   Mat3 tangentStress(Index i, const Mat3& dF) const {
     return filtered_ ? material_.dStress(filteredTangents_[i], dF)
@@ -162,7 +174,7 @@ class MlsElasticity {
 
 template <class Material>
 template <bool Control, class Response>
-void MlsElasticity<Material>::gatherStress(Index i, Response&& response) {
+inline void MlsElasticity<Material>::gatherStress(Index i, Response&& response) {
   if constexpr (!Control) {
     const Columns h = gradientOf(i);
     stress_[i] = response(h);
@@ -193,17 +205,24 @@ void MlsElasticity<Material>::gatherStress(Index i, Response&& response) {
 
 template <class Material>
 template <bool Control>
-Vec4 MlsElasticity<Material>::gatherForce(Index i) const {
+inline Vec4 MlsElasticity<Material>::gatherForce(Index i) const {
   const Vec4 self = bonds_.self(i);
   const Columns& p = stress_[i];
   Vec4 force = p.c[0] * self[0] + p.c[1] * self[1] + p.c[2] * self[2];
   const Bond* bond = bonds_.back(i);
   const Bond* end = bond + bonds_.backRow(i).size;
   if constexpr (!Control) {
-    for (; bond != end; ++bond) {
-      const Columns& s = stress_[bond->particle];
-      force += s.c[0] * bond->g[0] + s.c[1] * bond->g[1] + s.c[2] * bond->g[2];
+    const auto pull = [this](const Bond& b) {
+      const Columns& s = stress_[b.particle];
+      return s.c[0] * b.g[0] + s.c[1] * b.g[1] + s.c[2] * b.g[2];
+    };
+    Vec4 odd{};
+    for (; bond + 1 < end; bond += 2) {
+      force += pull(bond[0]);
+      odd += pull(bond[1]);
     }
+    if (bond != end) force += pull(*bond);
+    force += odd;
   } else {
     Vec4 h0{}, h1{}, h2{}, offset{};
     for (; bond != end; ++bond) {
