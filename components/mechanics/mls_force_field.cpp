@@ -10,6 +10,7 @@
 #include "components/material/hooke_green.h"
 #include "components/material/stable_neo_hookean.h"
 #include "components/mechanics/mls_elasticity.h"
+#include "components/mechanics/second_order.h"
 #include "components/mechanics/surface_quadrature.h"
 #include "core/schedule.h"
 
@@ -143,7 +144,8 @@ void MLSForceField::makeGradientsConsistent() {
                        : SurfaceView{};
   if (closed_.triangles.empty()) {
     error(gradient, "gradient-surface",
-          "=\"consistent\" needs the closed surface around the particles",
+          "=\"" + ValueTraits<GradientScheme>::print(gradient) +
+              "\" needs the closed surface around the particles",
           "use a ParticleSampler, or give surface=\"@mesh\"");
     return;
   }
@@ -161,6 +163,11 @@ void MLSForceField::makeGradientsConsistent() {
   warnOfCoarseSurface();
   std::vector<Vec3> boundary(mechanicalState->rest().size(), Vec3::Zero());
   boundaryShape_->addTransposed(areas, boundary);
+  if (gradient == GradientScheme::secondOrder) {
+    const ConstVec3Span X = mechanicalState->rest();
+    refitOneSided(X, neighbourhoods_, gradients_);
+    volumes_ = quadratureWeights(X, neighbourhoods_, transposed_, gradients_, volumes_);
+  }
   ProjectionOptions options;
   options.iterations = projectionIterations;
   options.exact = projectionIterations == 0;
@@ -220,7 +227,7 @@ void MLSForceField::buildBonds() {
 
 void MLSForceField::bind() {
   if (!readVolumes() || !findSupports()) return;
-  if (gradient == GradientScheme::consistent) makeGradientsConsistent();
+  if (gradient != GradientScheme::plain) makeGradientsConsistent();
   if (failed()) return;
   reportRanks();
   buildBonds();

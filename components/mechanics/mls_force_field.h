@@ -18,7 +18,7 @@ namespace stroma {
 
 enum class MaterialLaw { hooke, stableNeoHookean };
 enum class StrainMeasure { cauchy, green, corotated };
-enum class GradientScheme { plain, consistent };
+enum class GradientScheme { plain, consistent, secondOrder };
 enum class TangentKind { exact, filtered };
 
 template <>
@@ -35,8 +35,10 @@ struct EnumNames<StrainMeasure> {
 };
 template <>
 struct EnumNames<GradientScheme> {
-  static constexpr std::array<std::pair<GradientScheme, std::string_view>, 2> names = {
-      {{GradientScheme::plain, "plain"}, {GradientScheme::consistent, "consistent"}}};
+  static constexpr std::array<std::pair<GradientScheme, std::string_view>, 3> names = {
+      {{GradientScheme::plain, "plain"},
+       {GradientScheme::consistent, "consistent"},
+       {GradientScheme::secondOrder, "secondOrder"}}};
 };
 template <>
 struct EnumNames<TangentKind> {
@@ -104,9 +106,12 @@ class MLSForceField final : public ForceField {
                                  {.min = 1, .exclusiveMin = true}};
   Attribute<Kernel> kernel{this, "kernel", Kernel::mueller2003,
                            "Weight of a neighbour by distance."};
-  Attribute<GradientScheme> gradient{this, "gradient", GradientScheme::plain,
-                                     "plain moving least squares, or consistent with surface "
-                                     "tractions (accurate bending; needs the enclosing surface)."};
+  Attribute<GradientScheme> gradient{
+      this, "gradient", GradientScheme::plain,
+      "plain moving least squares, consistent with surface "
+      "tractions (accurate bending; needs the enclosing surface), or "
+      "secondOrder (consistent, and corrected where neighbours lie "
+      "on one side only; the most accurate for solids)."};
   Attribute<int> projectionIterations{
       this,
       "projectionIterations",
@@ -218,7 +223,7 @@ class MLSForceField final : public ForceField {
   [[nodiscard]] std::unique_ptr<Law> makeLaw() const;
   void publishStress(const StepContext& step);
 
-  std::vector<double> volumes_;
+  std::vector<double> volumes_;  // weights of the energy's sum; the cells' unless secondOrder
   Neighbourhoods neighbourhoods_;
   TransposedRows transposed_;
   Gradients gradients_;       // the ones forces use

@@ -84,7 +84,10 @@ class Extrapolator {
 
   // The shares of the particles near a point, supports() of them.
   void find(const Vec3& point, std::span<Share> shares) {
-    tree_->nearest(point, nearest_, squared_);
+    if (n_.axes.empty())
+      tree_->nearest(point, nearest_, squared_);
+    else
+      nearestInMetric(point);
     shepardWeights(squared_, n_.options.kernel, weights_);
     for (std::size_t k = 0; k < nearest_.size(); ++k) {
       const Index i = id_[nearest_[k]];
@@ -120,9 +123,28 @@ class Extrapolator {
   }
 
  private:
+  // By the supports' own metric: among flat cells the nearest particles would be the column below
+  // the point, down to the far side of the shell.
+  void nearestInMetric(const Vec3& point) {
+    wide_.resize(std::min(8 * nearest_.size() + 8, carriers_.size()));
+    wideSquared_.resize(wide_.size());
+    tree_->nearest(point, wide_, wideSquared_);
+    candidates_.clear();
+    for (const Index k : wide_)
+      candidates_.emplace_back(n_.distance(id_[k], point - carriers_[k]), k);
+    std::sort(candidates_.begin(), candidates_.end());
+    for (std::size_t k = 0; k < nearest_.size(); ++k) {
+      nearest_[k] = candidates_[k].second;
+      squared_[k] = candidates_[k].first * candidates_[k].first;
+    }
+  }
+
   ConstVec3Span X_;
   const Neighbourhoods& n_;
   const Gradients& gradients_;
+  std::vector<Index> wide_;
+  std::vector<double> wideSquared_;
+  std::vector<std::pair<double, Index>> candidates_;
   RowBuilder row_;
   std::vector<double> weight_;  // of the carriers in the row being made
   std::vector<Vec3> arm_;

@@ -25,6 +25,10 @@ struct DepthVolume {
   [[nodiscard]] double momentUpTo(double z) const {
     return z * z * (a / 2 + z * (b / 3 + z * c / 4));
   }
+  // The same of depth squared.
+  [[nodiscard]] double secondMomentUpTo(double z) const {
+    return z * z * z * (a / 3 + z * (b / 4 + z * c / 5));
+  }
   DepthVolume& operator+=(const DepthVolume& other) {
     a += other.a;
     b += other.b;
@@ -173,19 +177,30 @@ void relax(const std::vector<Prism>& prisms, double spacing, int steps, std::vec
   }
 }
 
-// Cuts a column into layers of equal thickness, a particle in the middle (of volume) of each.
+// Cuts a column into layers of equal thickness, a particle for each. The particles lie at the
+// layers' middles (of volume), spread about the column's own until their second moment is the
+// column's: n points in the middles of n layers have 1 - 1/n^2 of it, and the shell would bend that
+// much too easily. A single layer has nothing to spread.
 void stack(const Column& column, Index layers, double scale, ShellSamples& out) {
   const Vec3 down = column.inner - column.outer;
+  const double whole = column.volume.upTo(1), centre = column.volume.momentUpTo(1) / whole;
+  const auto first = out.positions.size();
+  std::vector<double> depth;
+  double ofPoints = 0;
   for (Index k = 0; k < layers; ++k) {
     const double from = static_cast<double>(k) / layers, to = static_cast<double>(k + 1) / layers;
     const double volume = column.volume.upTo(to) - column.volume.upTo(from);
     const double moment = column.volume.momentUpTo(to) - column.volume.momentUpTo(from);
-    if (column.atRim) out.rim.push_back(static_cast<Index>(out.positions.size()));
-    out.positions.push_back(column.outer + moment / volume * down);
+    depth.push_back(moment / volume - centre);
+    ofPoints += volume * depth.back() * depth.back();
+    if (column.atRim) out.rim.push_back(static_cast<Index>(first) + k);
     out.volumes.push_back(volume * scale);
     out.normals.push_back(-down.normalized());
     out.thicknesses.push_back(down.norm() / layers);
   }
+  const double ofColumn = column.volume.secondMomentUpTo(1) - whole * centre * centre;
+  const double spread = layers > 1 ? std::sqrt(ofColumn / ofPoints) : 1;
+  for (const double d : depth) out.positions.push_back(column.outer + (centre + spread * d) * down);
 }
 
 std::string whyNotPossible(const ShellSheets& s, double volume, const ShellSamplerOptions& o) {

@@ -6,8 +6,10 @@
 //
 // Columns are blue noise on the mid-surface, relaxed to the centroids of their Voronoi cells (Lloyd
 // 1982). Each cell, a set of small prisms between the sheets, is cut into layers of equal
-// thickness; volumes are integrated exactly over the ruled prisms and scaled so that they partition
-// the enclosed volume. Reproducible as the volume sampler is.
+// thickness, with a particle near the middle of each: so far outwards that the particles have the
+// second moment of their column, on which bending depends. Volumes are integrated exactly over the
+// ruled prisms and scaled so that they partition the enclosed volume. Reproducible as the volume
+// sampler is.
 #pragma once
 
 #include <cstdint>

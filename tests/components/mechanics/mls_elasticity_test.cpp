@@ -239,6 +239,7 @@ TEST(UniformTraction, isExactWithTheExactProjection) {
       (sigma - lambda / (3 * lambda + 2 * mu) * sigma.trace() * Mat3::Identity()) / (2 * mu);
   for (const auto& [kind, name, bound] : {std::tuple{GradientKind::plain, "plain", 1.0},
                                           {GradientKind::fewIterations, "few iterations", 0.05},
+                                          {GradientKind::secondOrder, "second order", 0.05},
                                           {GradientKind::exact, "exact", 1e-8}}) {
     BodyOptions options;
     options.gradient = kind;
@@ -267,6 +268,50 @@ TEST(UniformTraction, isExactWithTheExactProjection) {
       EXPECT_LT(worst, 1e-8);
     }
   }
+}
+
+// u = x_a x_b: its gradient at a particle, integrated, is exact to the first moment with the
+// weights and not with the volumes, because one-sided rows sample it elsewhere.
+TEST(SecondOrder, weightsIntegrateGradientsThatVaryAndKeepLinearFieldsExact) {
+  Cloud cloud = boxCloud({6, 6, 6}, 0.2, 4);
+  SupportOptions support;
+  Neighbourhoods n = findNeighbourhoods(cloud.positions, support);
+  Gradients g = computeGradients(cloud.positions, n);
+  const TransposedRows transposed = transpose(n);
+  refitOneSided(cloud.positions, n, g);
+  for (Index i = 0; i < n.particleCount(); ++i) {
+    Mat3 one = Mat3::Zero();
+    for (Index s = n.rows[i].begin; s < n.rows[i].begin + n.rows[i].size; ++s)
+      one += (cloud.positions[n.neighbours[s]] - cloud.positions[i]) * g.values[s].transpose();
+    EXPECT_LT((one - Mat3::Identity()).norm(), 1e-11);
+  }
+  const auto weights = quadratureWeights(cloud.positions, n, transposed, g, cloud.volumes);
+  double volume = 0, weight = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    EXPECT_GE(weights[i], 0.25 * cloud.volumes[i]);
+    volume += cloud.volumes[i];
+    weight += weights[i];
+  }
+  EXPECT_NEAR(weight, volume, 1e-10 * volume);
+
+  // squared stretch of a bent bar, u_x = (x - 3) (y - 3): the integral of (y - 3)^2
+  const auto energy = [&](std::span<const double> at) {
+    double sum = 0;
+    for (Index i = 0; i < n.particleCount(); ++i) {
+      double stretch = 0;
+      const auto u = [&](Index a) {
+        return (cloud.positions[a].x() - 3) * (cloud.positions[a].y() - 3);
+      };
+      for (Index s = n.rows[i].begin; s < n.rows[i].begin + n.rows[i].size; ++s)
+        stretch += g.values[s].x() * (u(n.neighbours[s]) - u(i));
+      sum += at[i] * stretch * stretch;
+    }
+    return sum / (6 * 6 * 18);
+  };
+  const double byVolumes = energy(cloud.volumes), byWeights = energy(weights);
+  std::printf("squared stretch of a bent cube over the exact: volumes %.3f, weights %.3f\n",
+              byVolumes, byWeights);
+  EXPECT_LT(std::abs(byWeights - 1), 0.5 * std::abs(byVolumes - 1));
 }
 
 TEST(FreeBody, keepsBothMomentaOver10000Steps) {

@@ -8,6 +8,7 @@
 
 #include "components/mechanics/consistent_gradient.h"
 #include "components/mechanics/mls_elasticity.h"
+#include "components/mechanics/second_order.h"
 #include "components/mechanics/surface_quadrature.h"
 #include "components/mechanics/surface_shape.h"
 
@@ -82,7 +83,7 @@ inline Cloud boxCloud(const Eigen::Vector3i& n, double jitter, unsigned seed, do
   return cloud;
 }
 
-enum class GradientKind { plain, fewIterations, exact };
+enum class GradientKind { plain, fewIterations, exact, secondOrder };
 
 struct BodyOptions {
   Index neighbours = 12;  // 0: all within radius
@@ -124,10 +125,15 @@ struct Body {
     for (const SurfaceSample& s : samples) points.push_back(s.position), areas.push_back(s.area);
     shape = SurfaceShape(X, neighbourhoods, gradients, points, options.supports);
     shape.addTransposed(areas, boundary);
+    std::vector<double> weights = cloud.volumes;
+    if (options.gradient == GradientKind::secondOrder) {
+      refitOneSided(X, neighbourhoods, gradients);
+      weights = quadratureWeights(X, neighbourhoods, transposed, gradients, weights);
+    }
     if (options.gradient != GradientKind::plain)
-      projection = makeConsistent(X, neighbourhoods, transposed, cloud.volumes, boundary, gradients,
+      projection = makeConsistent(X, neighbourhoods, transposed, weights, boundary, gradients,
                                   {options.iterations, options.gradient == GradientKind::exact});
-    bonds = std::make_unique<MlsBonds>(X, neighbourhoods, transposed, gradients, cloud.volumes,
+    bonds = std::make_unique<MlsBonds>(X, neighbourhoods, transposed, gradients, weights,
                                        options.control * options.youngModulus);
   }
 

@@ -3,6 +3,7 @@
 // backtracking on the energy.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <functional>
@@ -59,34 +60,77 @@ std::vector<Vec3> solveLinear(MlsElasticity<Material>& elasticity, ConstVec3Span
   return out;
 }
 
-// Factors of a long body's stiffness, its particles ordered along x: a narrow band, cheaper than
-// what a fill-reducing order makes of it.
+// Cholesky factors of a long body's stiffness. Its particles are ordered along x, which makes the
+// matrix a narrow band; slabs as wide as the band couple only with the next, by dense blocks.
 class BandFactor {
  public:
   explicit BandFactor(ConstVec3Span X) {
     std::vector<Index> order(X.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [X](Index a, Index b) { return X[a].x() < X[b].x(); });
-    permutation_.resize(static_cast<Eigen::Index>(3 * X.size()));
+    place_.resize(3 * X.size());
     for (std::size_t k = 0; k < order.size(); ++k)
-      for (int c = 0; c < 3; ++c)
-        permutation_.indices()[3 * order[k] + c] = static_cast<int>(3 * k) + c;
+      for (int c = 0; c < 3; ++c) place_[3 * order[k] + c] = static_cast<Eigen::Index>(3 * k) + c;
   }
+
   // The lower half of a symmetric matrix; false where it is not positive definite.
   [[nodiscard]] bool factorise(const SparseMatrix& lower) {
-    SparseMatrix band(lower.rows(), lower.cols());
-    band.selfadjointView<Eigen::Lower>() =
-        lower.selfadjointView<Eigen::Lower>().twistedBy(permutation_);
-    factor_.compute(band);
-    return factor_.info() == Eigen::Success && factor_.vectorD().minCoeff() > 0;
+    const auto entries = [&lower](auto&& visit) {
+      for (int k = 0; k < lower.outerSize(); ++k)
+        for (SparseMatrix::InnerIterator it(lower, k); it; ++it)
+          visit(it.row(), it.col(), it.value());
+    };
+    width_ = 1;
+    entries([&](Eigen::Index r, Eigen::Index c, double) {
+      width_ = std::max(width_, std::abs(place_[r] - place_[c]));
+    });
+    const auto size = static_cast<Eigen::Index>(place_.size());
+    diagonal_.clear();
+    below_.clear();
+    for (Eigen::Index begin = 0; begin < size; begin += width_) {
+      const Eigen::Index rows = std::min(width_, size - begin);
+      diagonal_.emplace_back(Eigen::MatrixXd::Zero(rows, rows));
+      if (begin > 0) below_.emplace_back(Eigen::MatrixXd::Zero(rows, width_));
+    }
+    entries([&](Eigen::Index r, Eigen::Index c, double value) {
+      const auto [low, high] = std::minmax(place_[r], place_[c]);
+      const Eigen::Index block = low / width_;
+      auto& to = high / width_ == block ? diagonal_[block] : below_[block];
+      to(high % width_, low % width_) = value;
+    });
+    for (std::size_t k = 0; k < diagonal_.size(); ++k) {
+      Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(diagonal_[k]);
+      if (factor.info() != Eigen::Success) return false;
+      if (k + 1 == diagonal_.size()) break;
+      factor.matrixL().adjoint().solveInPlace<Eigen::OnTheRight>(below_[k]);
+      diagonal_[k + 1].selfadjointView<Eigen::Lower>().rankUpdate(below_[k], -1);
+    }
+    return true;
   }
+
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const {
-    return permutation_.inverse() * factor_.solve(permutation_ * b).eval();
+    Eigen::VectorXd x(b.size());
+    for (Eigen::Index d = 0; d < b.size(); ++d) x[place_[d]] = b[d];
+    const auto slab = [&](std::size_t k) {
+      return x.segment(static_cast<Eigen::Index>(k) * width_, diagonal_[k].rows());
+    };
+    for (std::size_t k = 0; k < diagonal_.size(); ++k) {
+      if (k > 0) slab(k) -= below_[k - 1] * slab(k - 1);
+      diagonal_[k].triangularView<Eigen::Lower>().solveInPlace(slab(k));
+    }
+    for (std::size_t k = diagonal_.size(); k-- > 0;) {
+      if (k + 1 < diagonal_.size()) slab(k) -= below_[k].transpose() * slab(k + 1);
+      diagonal_[k].triangularView<Eigen::Lower>().adjoint().solveInPlace(slab(k));
+    }
+    Eigen::VectorXd out(b.size());
+    for (Eigen::Index d = 0; d < b.size(); ++d) out[d] = x[place_[d]];
+    return out;
   }
 
  private:
-  Eigen::PermutationMatrix<Eigen::Dynamic> permutation_;
-  Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> factor_;
+  std::vector<Eigen::Index> place_;  // of every degree of freedom in the order along x
+  Eigen::Index width_ = 0;
+  std::vector<Eigen::MatrixXd> diagonal_, below_;
 };
 
 struct StaticProblem {
