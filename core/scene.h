@@ -30,6 +30,9 @@ struct SceneOptions {
   std::filesystem::path outputFolder = ".";  // where exporters write
   bool writesOutput = true;                  // false: exporters stay silent (checks, benchmarks)
   bool lenient = false;                      // unknown elements and attributes only warn
+  // Steps are made as the wall clock goes: whoever serves devices does so in threads of its own.
+  // False: everything happens in the steps, deterministically.
+  bool realTime = false;
 };
 
 class Scene {

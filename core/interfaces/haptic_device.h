@@ -27,7 +27,9 @@ struct ToolSample {
 };
 
 // The hand's end of a tool: a pose comes from it, a force goes back to it. Both calls are made by
-// one thread, at the haptic rate; they neither block nor allocate.
+// one thread, at the haptic rate; they neither block nor allocate. In real time
+// (SceneOptions::realTime) that is another thread than the scene's: reset(), save() and restore()
+// then leave alone what these calls use.
 class HapticDevice : public Component {
  public:
   static constexpr std::string_view role = "HapticDevice";

@@ -15,6 +15,8 @@ class Integrator : public Component {
 
   // Advances system() from step.time to step.time + step.dt.
   virtual void integrate(const StepContext& step) = 0;
+  // A component that it governs has a new run-time value: forces and stiffness may have changed.
+  virtual void systemChanged() {}
   [[nodiscard]] System& system() const { return *system_; }
   void setSystem(System* system) { system_ = system; }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An observer watches a run and changes nothing in it: monitors, exporters. The run's summary asks
-// it for the values it saw last and the files it wrote.
+// An observer has something to say of a run: monitors, exporters, a hand's controller. The run's
+// summary asks it for the values it saw last and the files it wrote.
 #pragma once
 
 #include <filesystem>

@@ -49,9 +49,18 @@ class Tool : public Component {
   // Forces (N) at points of the scene that are no contacts, such as a cut's resistance or a grip's
   // pull; they sum up until clearForces(), which the tool's mover calls once a step.
   virtual void addForce(const Vec3& force, const Vec3& at) = 0;
+  virtual void clearForces() = 0;
   // All forces on the tool, contacts included, and their torque about its origin.
   [[nodiscard]] virtual Vec3 totalForce() const = 0;
   [[nodiscard]] virtual Vec3 totalTorque() const = 0;
+
+  // The pose at the end of the step that is being made, from whoever moves the tool; the former
+  // one becomes the previous pose. Called once a step, in Stage::Input.
+  virtual void moveTo(const Pose& pose, const Vec3& linearVelocity, const Vec3& angularVelocity,
+                      bool active) = 0;
+  // Somebody else than the tool itself reads its device and calls moveTo() and clearForces() (a
+  // haptic controller does); said before the schedule is compiled, in bind().
+  virtual void setDriven(bool driven) = 0;
 };
 
 }  // namespace stroma

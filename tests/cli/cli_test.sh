@@ -74,6 +74,11 @@ whole=$(hash_in out.txt)
 expect 0 "two threads" "$stroma" run fall.xml --json --threads 2
 holds "  give the same bits" same "$whole" "$(hash_in out.txt)"
 
+begun=$(date +%s%N)
+expect 0 "real time" "$stroma" run fall.xml --real-time --json
+holds "  takes as long as the scene says" test $(( $(date +%s%N) - begun )) -ge 490000000
+holds "  gives the same bits where there is no hand" same "$whole" "$(hash_in out.txt)"
+
 expect 0 "checkpoint" "$stroma" run fall.xml --time "250 ms" --checkpoint-every 0.25 --out results
 holds "  is written" test -s results/fall.checkpoint
 expect 0 "resume" "$stroma" run fall.xml --resume results/fall.checkpoint --json

@@ -11,6 +11,7 @@
 
 #include "core/interfaces/observer.h"
 #include "core/parallel.h"
+#include "core/rate_keeper.h"
 #include "core/traverse.h"
 #include "tools/stroma/command.h"
 #include "tools/stroma/progress_bar.h"
@@ -26,7 +27,7 @@ struct Options {
   SceneFlags flags;
   std::uint64_t steps = 0;
   std::string time, checkpointEvery;  // durations; bare numbers are seconds
-  bool stepsGiven = false, profile = false, json = false;
+  bool stepsGiven = false, profile = false, json = false, realTime = false;
   int threads = 1;
 };
 
@@ -88,6 +89,7 @@ class Run {
     const auto begin = Clock::now();
     SceneOptions sceneOptions = options_.flags.options();
     sceneOptions.outputFolder = out_;
+    sceneOptions.realTime = options_.realTime;
     Scene scene(std::move(sceneOptions));
     const bool loaded = scene.load(options_.scene) && scene.initialise();
     report_.loadMs = milliseconds(Clock::now() - begin);
@@ -174,13 +176,18 @@ class Run {
         checkpointEvery_ > 0
             ? static_cast<std::uint64_t>(std::max(1.0, std::round(checkpointEvery_ / scene.dt())))
             : 0;
+    // in real time a step begins when the wall clock is there; one that is late does not hurry the
+    // next
+    RateKeeper pace(1 / scene.dt(), scene.dt());
+    pace.start();
     ProgressBar bar(first, last, scene.root().time + static_cast<double>(last) * scene.dt());
     const double cpu = cpuMilliseconds();
     const auto begin = Clock::now();
     const Diagnostics& diagnostics = scene.diagnostics();
     // an error while running: an exporter cannot write any more
-    while (scene.stepCount() < last && signalReceived == 0 && diagnostics.errorCount() == 0 &&
-           scene.step()) {
+    while (scene.stepCount() < last && signalReceived == 0 && diagnostics.errorCount() == 0) {
+      if (options_.realTime) pace.wait();
+      if (!scene.step()) break;
       const std::uint64_t step = scene.stepCount();
       bar.show(step, scene.time());
       if (every > 0 && step % every == 0) {
@@ -242,6 +249,9 @@ void addRun(CLI::App& app, int& exitCode) {
       ->option_text("N")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--profile", options->profile, "Time every call and print the table");
+  command->add_flag("--real-time", options->realTime,
+                    "Keep pace with the wall clock: haptic devices are served by threads of their "
+                    "own; results then depend on timing");
   command->add_flag("--json", options->json, "Print one JSON object on standard output");
   command->add_option("--resume", options->resume, "Continue from a checkpoint of this scene")
       ->option_text("FILE");
