@@ -8,6 +8,9 @@
 
 #include "tools/mesh_maker/cornea.h"
 #include "tools/mesh_maker/organs.h"
+#ifdef STROMA_NGLIB
+#include "tools/mesh_maker/tetrahedra.h"
+#endif
 
 namespace {
 
@@ -21,6 +24,26 @@ bool write(const GroupedMesh& mesh, const std::filesystem::path& path) {
   std::cerr << "stroma-mesh: cannot write " << path.string() << '\n';
   return false;
 }
+
+#ifdef STROMA_NGLIB
+bool writeFilled(const std::filesystem::path& surface, const std::filesystem::path& path,
+                 double size) {
+  try {
+    const stroma::meshes::TetrahedralMesh mesh = stroma::meshes::fillSurface(surface, size);
+    std::ofstream file(path, std::ios::binary);
+    stroma::meshes::writeMsh(mesh, file);
+    file.close();
+    if (!file) throw std::runtime_error("cannot write " + path.string());
+    std::cout << mesh.positions.size() << " nodes, " << mesh.surface.size() << " triangles, "
+              << mesh.tetrahedra.size() << " tetrahedra, smallest dihedral angle "
+              << mesh.smallestDihedral << " degrees\n";
+    return true;
+  } catch (const std::exception& e) {
+    std::cerr << "stroma-mesh: " << e.what() << '\n';
+    return false;
+  }
+}
+#endif
 
 }  // namespace
 
@@ -60,6 +83,19 @@ int main(int argc, char** argv) {
   }
   CLI::App* all = app.add_subcommand("all", "Write all of them into a folder");
   all->add_option("--out", out, "folder, made if it does not exist")->default_str("scenes/meshes");
+#ifdef STROMA_NGLIB
+  std::string surface, filled;
+  double size = 0;
+  CLI::App* tetrahedra =
+      app.add_subcommand("tetrahedra", "Fill a closed surface with tetrahedra, Gmsh 2.2 ASCII");
+  tetrahedra->add_option("surface", surface, "Wavefront OBJ of triangles")->required();
+  tetrahedra->add_option("out", filled, "file to write, .msh")->required();
+  tetrahedra
+      ->add_option("--size", size,
+                   "largest edge inside, in mean edges of the surface; 0: netgen's choice")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+#endif
 
   try {
     app.parse(argc, argv);
@@ -67,6 +103,9 @@ int main(int argc, char** argv) {
     return app.exit(e) == 0 ? 0 : usage;
   }
 
+#ifdef STROMA_NGLIB
+  if (tetrahedra->parsed()) return writeFilled(surface, filled, size) ? 0 : fileTrouble;
+#endif
   if (all->parsed()) {
     const std::filesystem::path folder = out.empty() ? "scenes/meshes" : out;
     std::error_code error;
