@@ -317,6 +317,7 @@ std::optional<std::string> Scene::setAttribute(const std::string& path, const st
   }
   if (auto error = attribute->parse(value, UnitSystem{})) return error->message;
   if (target.component) target.component->attributeChanged(*attribute);
+  for (const auto& system : systems_) system->integrator().systemChanged();
   return std::nullopt;
 }
 

@@ -15,6 +15,7 @@
 #include "core/interfaces/observer.h"
 #include "core/interfaces/projective_constraint.h"
 #include "core/scene.h"
+#include "core/xml_text.h"
 
 namespace stroma {
 namespace {
@@ -128,29 +129,6 @@ std::string wrapped(const std::string& text, const std::string& indent) {
   return line.size() > indent.size() ? out + line + "\n" : out;
 }
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
 std::vector<std::string> splitNames(std::string_view names) {
   std::istringstream stream{std::string(names)};
   return {std::istream_iterator<std::string>(stream), {}};
@@ -189,7 +167,7 @@ class XsdWriter {
   }
 
   void documentation(const std::string& indent, const std::string& text) {
-    out_ += indent + "<xs:annotation><xs:documentation>" + escaped(text) +
+    out_ += indent + "<xs:annotation><xs:documentation>" + xmlText(text) +
             "</xs:documentation></xs:annotation>\n";
   }
 
@@ -269,7 +247,7 @@ class XsdWriter {
         "      <xs:simpleType><xs:union memberTypes=\"link\"><xs:simpleType>"
         "<xs:restriction base=\"xs:string\">\n";
     for (const std::string& word : words) {
-      out_ += "        <xs:enumeration value=\"" + escaped(word) + "\"/>\n";
+      out_ += "        <xs:enumeration value=\"" + xmlText(word) + "\"/>\n";
     }
     out_ += "      </xs:restriction></xs:simpleType></xs:union></xs:simpleType>\n";
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/boundary/surface_pressure.h"
 
+#include "components/boundary/ramp.h"
 #include "core/parallel.h"
 
 namespace stroma {
@@ -31,9 +32,7 @@ void SurfacePressureForceField::bind() {
 }
 
 double SurfacePressureForceField::pressureAt(double time) const {
-  if (rampTime <= 0) return pressure;
-  const double s = std::clamp(time / rampTime, 0.0, 1.0);
-  return pressure * s * s * (3 - 2 * s);
+  return pressure * smoothRamp(time, rampTime);
 }
 
 void SurfacePressureForceField::addForce(const StateView& at, Vec3Span f) {

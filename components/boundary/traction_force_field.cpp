@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/boundary/traction_force_field.h"
 
-#include <algorithm>
+#include "components/boundary/ramp.h"
 
 namespace stroma {
 
@@ -39,9 +39,7 @@ void TractionForceField::bind() {
 }
 
 double TractionForceField::factorAt(double time) const {
-  if (rampTime <= 0) return scale;
-  const double s = std::clamp(time / rampTime, 0.0, 1.0);
-  return scale * s * s * (3 - 2 * s);
+  return scale * smoothRamp(time, rampTime);
 }
 
 void TractionForceField::addForce(const StateView& at, Vec3Span f) {

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cstring>
 
+#include "core/xml_text.h"
+
 namespace stroma::vtk {
 namespace {
 
@@ -13,29 +15,6 @@ static_assert(std::endian::native == std::endian::little, "raw data are written 
 std::string number(double value) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
 }
 
 // The XML text and, behind it, the arrays that its DataArray elements point into.
@@ -50,7 +29,7 @@ class File {
 
   template <class T>
   void array(const char* type, const std::string& name, int components, std::span<const T> values) {
-    text_ += std::string("<DataArray type=\"") + type + "\" Name=\"" + escaped(name) +
+    text_ += std::string("<DataArray type=\"") + type + "\" Name=\"" + xmlText(name) +
              "\" NumberOfComponents=\"" + std::to_string(components) +
              "\" format=\"appended\" offset=\"" + std::to_string(data_.size()) + "\"/>\n";
     const std::uint64_t bytes = values.size_bytes();
@@ -177,7 +156,7 @@ std::string collection(std::span<const Frame> frames) {
       "byte_order=\"LittleEndian\">\n<Collection>\n";
   for (const Frame& frame : frames) {
     text += "<DataSet timestep=\"" + number(frame.time) + "\" part=\"0\" file=\"" +
-            escaped(frame.file) + "\"/>\n";
+            xmlText(frame.file) + "\"/>\n";
   }
   return text + "</Collection>\n</VTKFile>\n";
 }

@@ -44,6 +44,7 @@ void EulerExplicitSolver::start() {
 
 void EulerExplicitSolver::reset() {
   stability_.forget();
+  changed_ = false;
   substepChanges.set(0);
   system().project(system().v());
   estimate(scene().time(), scene().dt(), iterationsAtStart);
@@ -65,11 +66,13 @@ void EulerExplicitSolver::estimate(double time, double dt, int iterations) {
 }
 
 void EulerExplicitSolver::integrate(const StepContext& step) {
-  if (substeps == 0 && step.step > 1 &&
-      (step.step - 1) % static_cast<std::uint64_t>(estimateEvery) == 0) {
+  const bool due =
+      step.step > 1 && (step.step - 1) % static_cast<std::uint64_t>(estimateEvery) == 0;
+  if (changed_ || (substeps == 0 && due)) {
     const int before = currentSubsteps;
-    estimate(step.time, step.dt, iterationsToFollow);
+    estimate(step.time, step.dt, changed_ ? iterationsAtStart : iterationsToFollow);
     if (currentSubsteps != before) substepChanges.set(substepChanges + 1);
+    changed_ = false;
   }
   const double h = step.dt / currentSubsteps;
   for (int k = 0; k < currentSubsteps; ++k) substep(step.time + k * h, h);
@@ -113,15 +116,17 @@ void EulerExplicitSolver::save(StateWriter& writer) const {
   writer.write("currentSubsteps", currentSubsteps.value());
   writer.write("substepChanges", substepChanges.value());
   writer.write("stableStep", stableStep.value());
+  writer.write("changed", static_cast<int>(changed_));
   stability_.save(writer);
 }
 
 void EulerExplicitSolver::restore(StateReader& reader) {
-  int count = 1, changes = 0;
+  int count = 1, changes = 0, changed = 0;
   double stable = 0;
   if (reader.read("currentSubsteps", count)) currentSubsteps.set(count);
   if (reader.read("substepChanges", changes)) substepChanges.set(changes);
   if (reader.read("stableStep", stable)) stableStep.set(stable);
+  if (reader.read("changed", changed)) changed_ = changed != 0;
   stability_.restore(reader);
 }
 

@@ -48,6 +48,7 @@ class EulerExplicitSolver final : public Integrator {
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
   void integrate(const StepContext& step) override;
+  void systemChanged() override { changed_ = true; }
 
  private:
   void estimate(double time, double dt, int iterations);
@@ -55,6 +56,7 @@ class EulerExplicitSolver final : public Integrator {
 
   Limiter capped_{this, "maxSubsteps",
                   "estimates that asked for more than `maxSubsteps` sub-steps"};
+  bool changed_ = false;  // since the last estimate
   StabilityEstimate stability_;
   std::vector<Vec3> heldForce_;  // forces on held particles, put back after the update
 };

@@ -137,6 +137,19 @@ TEST(EulerExplicit, subStepsFollowStiffeningAndAreShown) {
   EXPECT_NEAR(200 * x + 1e5 * x * x * x, 40, 0.01);
 }
 
+TEST(EulerExplicit, stiffnessChangedAtRunTimeIsFollowedAtOnce) {
+  Loaded s = load(oscillator(0.05, "<EulerExplicitSolver estimateEvery='1000000'/>"));
+  s.run(10);
+  const auto& springs = s.find<StiffeningSprings>();
+  ASSERT_FALSE(s.scene->setAttribute("/" + springs.name() + ".k", "2e6"));
+  s.run(100);
+  const double size = s.system().x()[0].norm();
+  const int substeps = s.find<EulerExplicitSolver>().currentSubsteps;
+  std::printf("10,000 times stiffer: %d sub-steps, amplitude %.3f\n", substeps, size);
+  EXPECT_LT(size, 0.2);
+  EXPECT_GT(substeps, 30);
+}
+
 TEST(EulerExplicit, capOnSubStepsIsCounted) {
   Loaded s = load(oscillator(1.0, "<EulerExplicitSolver maxSubsteps='3'/>"));
   EXPECT_EQ(limiter(s.find<EulerExplicitSolver>(), "maxSubsteps"), 1u);

@@ -27,7 +27,7 @@ namespace stroma::test {
 // Each particle on a spring to its rest position that stiffens: f = -(k + c |u|^2) u, u = x - X.
 class StiffeningSprings final : public ForceField {
  public:
-  Attribute<double> k{this, "k", 0.0, "Stiffness."};
+  Attribute<double> k{this, "k", 0.0, "Stiffness.", {.runtime = true}};
   Attribute<double> c{this, "c", 0.0, "Cubic stiffness."};
   Link<MechanicalState> mechanicalState{this, "state", "Particles.", Lookup::nearest};
 
@@ -71,7 +71,7 @@ class StiffeningSprings final : public ForceField {
 // Springs between consecutive particles, at rest at their distance in the rest positions.
 class Chain final : public ForceField {
  public:
-  Attribute<double> k{this, "k", 0.0, "Stiffness."};
+  Attribute<double> k{this, "k", 0.0, "Stiffness.", {.runtime = true}};
   Attribute<bool> assembles{this, "assembles", true, "Whether it gives blocks."};
   Link<MechanicalState> mechanicalState{this, "state", "Particles.", Lookup::nearest};
 
