@@ -74,6 +74,8 @@ class Extrapolator {
         id_.push_back(static_cast<Index>(i));
       }
     tree_.emplace(carriers_);
+    for (const EllipsoidAxes& a : n.axes)
+      longestAxis_ = std::max({longestAxis_, a.tangential, a.across});
     const std::size_t count = std::min(static_cast<std::size_t>(supports), carriers_.size());
     nearest_.resize(count);
     squared_.resize(count);
@@ -124,15 +126,21 @@ class Extrapolator {
 
  private:
   // By the supports' own metric: among flat cells the nearest particles would be the column below
-  // the point, down to the far side of the shell.
+  // the point, down to the far side of the shell. All that lie nearer than the last of them are
+  // among the candidates when these reach as far as the metric's longest axis.
   void nearestInMetric(const Vec3& point) {
-    wide_.resize(std::min(8 * nearest_.size() + 8, carriers_.size()));
-    wideSquared_.resize(wide_.size());
-    tree_->nearest(point, wide_, wideSquared_);
-    candidates_.clear();
-    for (const Index k : wide_)
-      candidates_.emplace_back(n_.distance(id_[k], point - carriers_[k]), k);
-    std::sort(candidates_.begin(), candidates_.end());
+    for (std::size_t wanted = 3 * nearest_.size();; wanted *= 2) {
+      wide_.resize(std::min(wanted, carriers_.size()));
+      wideSquared_.resize(wide_.size());
+      tree_->nearest(point, wide_, wideSquared_);
+      candidates_.clear();
+      for (const Index k : wide_)
+        candidates_.emplace_back(n_.distance(id_[k], point - carriers_[k]), k);
+      const auto last = candidates_.begin() + static_cast<std::ptrdiff_t>(nearest_.size());
+      std::partial_sort(candidates_.begin(), last, candidates_.end());
+      const double reach = std::sqrt(wideSquared_.back());
+      if (wide_.size() == carriers_.size() || (last - 1)->first * longestAxis_ <= reach) break;
+    }
     for (std::size_t k = 0; k < nearest_.size(); ++k) {
       nearest_[k] = candidates_[k].second;
       squared_[k] = candidates_[k].first * candidates_[k].first;
@@ -142,6 +150,7 @@ class Extrapolator {
   ConstVec3Span X_;
   const Neighbourhoods& n_;
   const Gradients& gradients_;
+  double longestAxis_ = 0;  // of the supports' metric
   std::vector<Index> wide_;
   std::vector<double> wideSquared_;
   std::vector<std::pair<double, Index>> candidates_;

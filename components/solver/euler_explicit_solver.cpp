@@ -17,6 +17,9 @@ constexpr double safety = 0.9;
 // Products that the first estimate may take, one that only serves a warning, and one that goes on
 // from the mode found before.
 constexpr int iterationsAtStart = 100, iterationsToWarn = 20, iterationsToFollow = 8;
+// Relative change of the stable step between estimates that brings the next one nearer, or puts it
+// off.
+constexpr double quickChange = 0.02, slowChange = 0.01;
 
 std::string rounded(double value) {
   char text[32];
@@ -45,6 +48,8 @@ void EulerExplicitSolver::start() {
 void EulerExplicitSolver::reset() {
   stability_.forget();
   changed_ = false;
+  interval_ = 1;
+  nextEstimate_ = 2;
   substepChanges.set(0);
   system().project(system().v());
   estimate(scene().time(), scene().dt(), iterationsAtStart);
@@ -65,15 +70,24 @@ void EulerExplicitSolver::estimate(double time, double dt, int iterations) {
   currentSubsteps.set(static_cast<int>(std::min<double>(wanted, maxSubsteps)));
 }
 
+// While tissue stiffens or softens quickly estimates follow each other closely.
+void EulerExplicitSolver::reestimate(const StepContext& step) {
+  const int substepsBefore = currentSubsteps;
+  const double before = stableStep;
+  estimate(step.time, step.dt, changed_ ? iterationsAtStart : iterationsToFollow);
+  changed_ = false;
+  if (currentSubsteps != substepsBefore) substepChanges.set(substepChanges + 1);
+  const double change = std::abs(stableStep - before) / before;
+  if (change > quickChange)
+    interval_ = std::max(1, interval_ / 2);
+  else if (change < slowChange)
+    interval_ *= 2;
+  interval_ = std::min<int>(interval_, estimateEvery);
+  nextEstimate_ = step.step + static_cast<std::uint64_t>(interval_);
+}
+
 void EulerExplicitSolver::integrate(const StepContext& step) {
-  const bool due =
-      step.step > 1 && (step.step - 1) % static_cast<std::uint64_t>(estimateEvery) == 0;
-  if (changed_ || (substeps == 0 && due)) {
-    const int before = currentSubsteps;
-    estimate(step.time, step.dt, changed_ ? iterationsAtStart : iterationsToFollow);
-    if (currentSubsteps != before) substepChanges.set(substepChanges + 1);
-    changed_ = false;
-  }
+  if (changed_ || (substeps == 0 && step.step >= nextEstimate_)) reestimate(step);
   const double h = step.dt / currentSubsteps;
   for (int k = 0; k < currentSubsteps; ++k) substep(step.time + k * h, h);
 }
@@ -117,6 +131,8 @@ void EulerExplicitSolver::save(StateWriter& writer) const {
   writer.write("substepChanges", substepChanges.value());
   writer.write("stableStep", stableStep.value());
   writer.write("changed", static_cast<int>(changed_));
+  writer.write("interval", interval_);
+  writer.write("nextEstimate", nextEstimate_);
   stability_.save(writer);
 }
 
@@ -127,6 +143,10 @@ void EulerExplicitSolver::restore(StateReader& reader) {
   if (reader.read("substepChanges", changes)) substepChanges.set(changes);
   if (reader.read("stableStep", stable)) stableStep.set(stable);
   if (reader.read("changed", changed)) changed_ = changed != 0;
+  int interval = 1;
+  std::uint64_t next = 2;
+  if (reader.read("interval", interval)) interval_ = interval;
+  if (reader.read("nextEstimate", next)) nextEstimate_ = next;
   stability_.restore(reader);
 }
 

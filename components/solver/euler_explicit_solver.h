@@ -11,8 +11,9 @@ namespace stroma {
 // Rayleigh damping adds the force -rayleighMass M v + rayleighStiffness K v.
 //
 // A step is made in sub-steps of at most 0.9 times the largest stable one. That is estimated at the
-// start and every `estimateEvery` steps, so that the number of sub-steps follows stiffening tissue;
-// `substeps` shows it. Forces shown or written are those at the beginning of the last sub-step.
+// start, after a change of a run-time attribute and every `estimateEvery` steps, more often while
+// it changes quickly, so that the number of sub-steps follows stiffening tissue; `currentSubsteps`
+// shows it. Forces shown or written are those at the beginning of the last sub-step.
 class EulerExplicitSolver final : public Integrator {
  public:
   Attribute<bool> symplectic{this, "symplectic", true,
@@ -29,7 +30,12 @@ class EulerExplicitSolver final : public Integrator {
   Attribute<int> maxSubsteps{
       this, "maxSubsteps", 10000, "Most sub-steps that the estimate may ask for.", {.min = 1}};
   Attribute<int> estimateEvery{
-      this, "estimateEvery", 20, "Steps between estimates of stability.", {.min = 1}};
+      this,
+      "estimateEvery",
+      20,
+      "Steps between estimates of stability, at most: they are made more often while it changes "
+      "quickly.",
+      {.min = 1}};
   Attribute<int> currentSubsteps{
       this, "currentSubsteps", 1, "Sub-steps of the last step.", {.output = true}};
   Attribute<double> stableStep{this,
@@ -52,11 +58,14 @@ class EulerExplicitSolver final : public Integrator {
 
  private:
   void estimate(double time, double dt, int iterations);
+  void reestimate(const StepContext& step);
   void substep(double time, double h);
 
   Limiter capped_{this, "maxSubsteps",
                   "estimates that asked for more than `maxSubsteps` sub-steps"};
-  bool changed_ = false;  // since the last estimate
+  bool changed_ = false;            // since the last estimate
+  int interval_ = 1;                // steps between estimates now
+  std::uint64_t nextEstimate_ = 2;  // step before which the next one is made
   StabilityEstimate stability_;
   std::vector<Vec3> heldForce_;  // forces on held particles, put back after the update
 };

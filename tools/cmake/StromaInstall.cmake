@@ -18,3 +18,6 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/plugins/template DESTINATION share/strom
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/stroma)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/core DESTINATION include/stroma
         FILES_MATCHING PATTERN "*.h")
+# material laws are headers alone, for other people's force fields too
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/components/material DESTINATION include/stroma/components
+        FILES_MATCHING PATTERN "*.h")
