@@ -42,7 +42,7 @@ LinearSolution SparseLDLSolver::solve(const SystemMatrix& matrix, ConstVec3Span 
       // the true matrix has no minimum to iterate to: the shifted system's solution is taken
       ++shifted_;
       if (!usable) ++notConverged_;
-      if (usable) apply(b, x);
+      if (usable) flat(x) = factor_.solve(flat(b));
       result.solution = {1, residualOf(matrix, b, x), usable};
     } else {
       result = cg_.solve(matrix, this, b, x, false, iterations, tolerance);
@@ -60,7 +60,6 @@ void SparseLDLSolver::prepare(const SystemMatrix& matrix) {
     matrix_ = BlockMatrix(matrix.system.pattern(complete));
     lower_ = matrix_.lower();
     factor_.analyzePattern(lower_);
-    permuted_.resize(lower_.rows());
     analyzed_ = true;
   }
   if (restored_.empty()) return;
@@ -103,20 +102,11 @@ bool SparseLDLSolver::factorize(const SystemMatrix& matrix) {
 bool SparseLDLSolver::factorIsPositive() {
   factor_.factorize(lower_);
   if (factor_.info() != Eigen::Success) return false;
-  inversePivot_ = factor_.vectorD();
+  const Eigen::VectorXd pivots = factor_.vectorD();
   // pivots at the level of rounding belong to motions without stiffness
-  const double least = 1e-14 * inversePivot_.maxCoeff();
-  if (!(inversePivot_.minCoeff() > least)) return false;
-  inversePivot_ = inversePivot_.cwiseInverse();
+  if (!(pivots.minCoeff() > 1e-14 * pivots.maxCoeff())) return false;
+  packed_ = PackedFactor(factor_);
   return true;
-}
-
-void SparseLDLSolver::apply(ConstVec3Span r, Vec3Span z) {
-  permuted_.noalias() = factor_.permutationP() * flat(r);
-  factor_.matrixL().solveInPlace(permuted_);
-  permuted_.array() *= inversePivot_.array();
-  factor_.matrixU().solveInPlace(permuted_);
-  flat(z).noalias() = factor_.permutationPinv() * permuted_;
 }
 
 void SparseLDLSolver::save(StateWriter& writer) const {

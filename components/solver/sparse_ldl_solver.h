@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/SparseCholesky>
-
 #include "components/solver/conjugate_gradient.h"
+#include "components/solver/packed_factor.h"
 
 namespace stroma {
 
-// Sparse L D L^T factors of the assembled matrix (3x3 blocks; AMD ordering). The factor
-// preconditions conjugate gradients with the true product, which makes up for what cannot be
-// assembled (forces on mapped states) and for what has changed since the factor was made: it is
-// kept over steps as long as they reach `tolerance` within `keepIterations` (as Courtecuisse et
-// al., "Real-time simulation of contact and cutting of heterogeneous soft-tissues", 2014, do in the
-// background). With keepIterations = 0 every solve factorises.
+// Sparse L D L^T factors of the assembled matrix (3x3 blocks; AMD ordering). The factor, in single
+// precision, preconditions conjugate gradients with the true product, which makes up for what
+// cannot be assembled (forces on mapped states) and for what has changed since the factor was made:
+// it is kept over steps as long as they reach `tolerance` within `keepIterations` (as Courtecuisse
+// et al., "Real-time simulation of contact and cutting of heterogeneous soft-tissues", 2014, do in
+// the background). With keepIterations = 0 every solve factorises.
 //
 // A matrix that is not positive definite gets `shift` times its own diagonal (absolute values)
 // added, ten times as much until all pivots are positive; the shifted system is then solved and
@@ -64,7 +63,7 @@ class SparseLDLSolver final : public LinearSolver, private Preconditioner {
   [[nodiscard]] bool factorize(const SystemMatrix& matrix);
   [[nodiscard]] double residualOf(const SystemMatrix& matrix, ConstVec3Span b, ConstVec3Span x);
   [[nodiscard]] bool factorIsPositive();
-  void apply(ConstVec3Span r, Vec3Span z) override;
+  void apply(ConstVec3Span r, Vec3Span z) override { packed_.solve(r, z); }
 
   Limiter notConverged_{this, "notConverged",
                         "solves that ended at `iterations` before reaching `tolerance`"};
@@ -74,8 +73,8 @@ class SparseLDLSolver final : public LinearSolver, private Preconditioner {
   BlockMatrix matrix_;
   Sparse lower_;                  // what was factorised
   std::vector<double> restored_;  // its entries in a checkpoint, until the pattern is known
-  Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::AMDOrdering<int>> factor_;
-  Eigen::VectorXd inversePivot_, permuted_;
+  BlockFactor factor_;
+  PackedFactor packed_;
   std::vector<Vec3> residual_;
 };
 
