@@ -38,10 +38,11 @@ void Cutter::addVertex(Index v) {
 
 SurfaceEdit Cutter::advance(ConstVec3Span blade) {
   if (!sheet_) {
-    sheet_ = std::make_unique<CutSheet>(spacing_);
+    auto sheet = std::make_unique<CutSheet>(spacing_);
+    sheet->addPose(blade);
+    sheet_ = std::move(sheet);
     start_ = 0;
     setIn_ = step_ + 1;
-    sheet_->addPose(blade);
     return {};
   }
   const Index before = sheet_->rowCount();

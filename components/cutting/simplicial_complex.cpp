@@ -36,9 +36,8 @@ double signedVolume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
 
 // === Construction
 
-SimplicialComplex SimplicialComplex::fromTetrahedra(ConstVec3Span points,
-                                                    std::span<const Tetrahedron> tetrahedra,
-                                                    std::span<const Triangle> surface) {
+SimplicialComplex SimplicialComplex::bareTetrahedra(ConstVec3Span points,
+                                                    std::span<const Tetrahedron> tetrahedra) {
   SimplicialComplex complex;
   complex.vertices_.assign(points.begin(), points.end());
   complex.simplices_.assign(tetrahedra.begin(), tetrahedra.end());
@@ -51,25 +50,26 @@ SimplicialComplex SimplicialComplex::fromTetrahedra(ConstVec3Span points,
       std::swap(s[2], s[3]);
   }
   complex.buildAdjacency();
+  return complex;
+}
+
+SimplicialComplex SimplicialComplex::fromTetrahedra(ConstVec3Span points,
+                                                    std::span<const Tetrahedron> tetrahedra,
+                                                    std::span<const Triangle> surface) {
+  SimplicialComplex complex = bareTetrahedra(points, tetrahedra);
   complex.buildSurface(surface);
   return complex;
 }
 
 SimplicialComplex SimplicialComplex::fromTetrahedra(ConstVec3Span points,
                                                     std::span<const Tetrahedron> tetrahedra) {
-  SimplicialComplex bare;
-  bare.vertices_.assign(points.begin(), points.end());
-  bare.simplices_.assign(tetrahedra.begin(), tetrahedra.end());
-  for (Simplex& s : bare.simplices_)
-    if (signedVolume(points[at(s[0])], points[at(s[1])], points[at(s[2])], points[at(s[3])]) < 0)
-      std::swap(s[2], s[3]);
-  bare.buildAdjacency();
+  SimplicialComplex complex = bareTetrahedra(points, tetrahedra);
   std::vector<Triangle> surface;
-  for (Index t = 0; t < bare.simplexCount(); ++t)
+  for (Index t = 0; t < complex.simplexCount(); ++t)
     for (int i = 0; i < 4; ++i)
-      if (bare.across({t, i}) < 0) surface.push_back(bare.facetVertices({t, i}));
-  bare.buildSurface(surface);
-  return bare;
+      if (complex.across({t, i}) < 0) surface.push_back(complex.facetVertices({t, i}));
+  complex.buildSurface(surface);
+  return complex;
 }
 
 SimplicialComplex SimplicialComplex::fromTriangles(ConstVec3Span points,

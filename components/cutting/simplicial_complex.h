@@ -98,6 +98,9 @@ class SimplicialComplex {
     std::vector<Index> simplices;  // simplices at the vertex (dimension 2)
   };
 
+  // Vertices and adjacency, no surface yet.
+  [[nodiscard]] static SimplicialComplex bareTetrahedra(ConstVec3Span points,
+                                                        std::span<const Tetrahedron> tetrahedra);
   static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
   static std::size_t corner(int i) { return static_cast<std::size_t>(i); }
   void buildAdjacency();

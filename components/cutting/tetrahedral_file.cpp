@@ -35,7 +35,7 @@ void readCorners(std::istream& in, std::vector<std::array<Index, N>>& elements,
                  std::size_t number) {
   std::array<Index, N> corners;
   for (Index& v : corners) {
-    if (!(in >> v)) throw std::runtime_error("bad element " + std::to_string(number));
+    if (!(in >> v) || v < 1) throw std::runtime_error("bad element " + std::to_string(number));
     --v;
   }
   elements.push_back(corners);
@@ -89,7 +89,11 @@ TetrahedralFile readTetrahedra(std::istream& in) {
 TetrahedralFile readTetrahedra(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in) throw std::runtime_error("cannot read " + file.string());
-  return readTetrahedra(in);
+  try {
+    return readTetrahedra(in);
+  } catch (const std::runtime_error& e) {
+    throw std::runtime_error(file.string() + ": " + e.what());
+  }
 }
 
 }  // namespace stroma

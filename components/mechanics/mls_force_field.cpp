@@ -166,7 +166,14 @@ void MLSForceField::makeGradientsConsistent() {
   if (gradient == GradientScheme::secondOrder) {
     const ConstVec3Span X = mechanicalState->rest();
     refitOneSided(X, neighbourhoods_, gradients_);
-    volumes_ = quadratureWeights(X, neighbourhoods_, transposed_, gradients_, volumes_);
+    auto weights = quadratureWeights(X, neighbourhoods_, transposed_, gradients_, volumes_);
+    if (weights.empty()) {
+      warning("gradient-weights",
+              "the cloud is too irregular for weights of second order: the particles' volumes are "
+              "used, as with gradient=\"consistent\"");
+    } else {
+      volumes_ = std::move(weights);
+    }
   }
   ProjectionOptions options;
   options.iterations = projectionIterations;

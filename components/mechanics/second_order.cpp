@@ -99,7 +99,7 @@ std::vector<double> quadratureWeights(ConstVec3Span X, const Neighbourhoods& n,
       low[j] = sum < leastShare * V[j];
     });
     if (std::ranges::find(low, 1) == low.end()) return weights;
-    if (attempt == attempts) return {V.begin(), V.end()};
+    if (attempt == attempts) return {};
     // halve the moments that bear on a particle with too little
     parallelFor(n.particleCount(), [&](Index i) {
       const auto touches = std::ranges::any_of(n.neighboursOf(i), [&](Index j) { return low[j]; });

@@ -26,7 +26,8 @@ void refitOneSided(ConstVec3Span positions, const Neighbourhoods& neighbourhoods
                    Gradients& gradients);
 
 // Weights V' in m^3, one a particle, none below a quarter of its volume: where irregular
-// neighbourhoods would ask for that, the places around are moved less.
+// neighbourhoods would ask for that, the places around are moved less. Empty where that is not
+// enough.
 [[nodiscard]] std::vector<double> quadratureWeights(ConstVec3Span positions,
                                                     const Neighbourhoods& neighbourhoods,
                                                     const TransposedRows& transposed,

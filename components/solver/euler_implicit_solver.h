@@ -74,6 +74,7 @@ class EulerImplicitSolver final : public Integrator, private NewtonProblem {
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
   void integrate(const StepContext& step) override;
+  [[nodiscard]] bool solvesOnce() const override { return newtonIterations == 1; }
 
  private:
   void linearStep(const StepContext& step);

@@ -54,7 +54,7 @@ PackedFactor::PackedFactor(const BlockFactor& factor) {
     const std::array<int, 3> first{start[0] + 2, start[1] + 1, start[2]};
     const int below = start[3] - start[2];
     if (start[1] - first[0] != below || start[2] - first[1] != below || below % 3 != 0) {
-      throw std::logic_error("the factor does not consist of 3x3 blocks");
+      throw std::invalid_argument("the factor does not consist of 3x3 blocks");
     }
     diagonal_[k] = {
         single(values[start[0]]),

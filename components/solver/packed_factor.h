@@ -22,7 +22,8 @@ using BlockFactor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lo
 // Good to about six digits: a preconditioner, not a solution.
 class PackedFactor {
  public:
-  // The factor must have been computed, with pivots that are not zero.
+  // The factor must have been computed, with pivots that are not zero. Throws std::invalid_argument
+  // where its matrix did not consist of whole 3x3 blocks.
   explicit PackedFactor(const BlockFactor& factor);
   PackedFactor() = default;
 

@@ -17,6 +17,8 @@ class Integrator : public Component {
   virtual void integrate(const StepContext& step) = 0;
   // A component that it governs has a new run-time value: forces and stiffness may have changed.
   virtual void systemChanged() {}
+  // Whether a step makes one linear solve, which cannot find out which one-sided forces let go.
+  [[nodiscard]] virtual bool solvesOnce() const { return false; }
   [[nodiscard]] System& system() const { return *system_; }
   void setSystem(System* system) { system_ = system; }
 

@@ -14,7 +14,7 @@ fail() { echo "FAILED: $*" >&2; exit 1; }
 "$cmake" --install "$build" --prefix "$work/stroma" > "$work/install.log"
 cp -r "$template" "$work/plugin"
 cd "$work/plugin"
-"$cmake" -S . -B build -DCMAKE_PREFIX_PATH="$work/stroma" -DCMAKE_CXX_COMPILER="$compiler" \
+"$cmake" -S . -B build -G Ninja -DCMAKE_PREFIX_PATH="$work/stroma" -DCMAKE_CXX_COMPILER="$compiler" \
   -DCMAKE_BUILD_TYPE="$config" > "$work/configure.log" || { cat "$work/configure.log"; fail configure; }
 "$cmake" --build build > "$work/build.log" || { cat "$work/build.log"; fail build; }
 

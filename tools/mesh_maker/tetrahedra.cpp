@@ -27,22 +27,27 @@ void readObj(const std::filesystem::path& path, TetrahedralMesh& mesh) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot read " + path.string());
   std::string line;
-  while (std::getline(file, line)) {
+  for (int number = 1; std::getline(file, line); ++number) {
+    const auto refuse = [&](const char* why) {
+      throw std::runtime_error(path.string() + ":" + std::to_string(number) + ": " + why + ": " +
+                               line);
+    };
     std::istringstream words(line);
     std::string kind;
     words >> kind;
     if (kind == "v") {
       Vec3 x;
-      if (!(words >> x[0] >> x[1] >> x[2])) throw std::runtime_error("bad record: " + line);
+      if (!(words >> x[0] >> x[1] >> x[2])) refuse("expected three coordinates");
       mesh.positions.push_back(x);
     } else if (kind == "f") {
       Triangle t;
-      std::string corner;
+      std::string rest;
       for (Index& v : t) {
-        if (!(words >> corner)) throw std::runtime_error("bad record: " + line);
-        v = std::stoi(corner) - 1;
+        if (!(words >> v) || v < 1) refuse("expected the numbers of three vertices");
+        --v;
+        if (words.peek() == '/') words >> rest;  // texture and normal are of no use here
       }
-      if (words >> corner) throw std::runtime_error("not a triangle: " + line);
+      if (words >> rest) refuse("expected a triangle");
       mesh.surface.push_back(t);
     }
   }

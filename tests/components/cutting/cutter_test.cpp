@@ -240,5 +240,24 @@ TEST(CutFidelity, incisionHasThePathsLengthAndIsTwiceAsSmoothAsWithoutSubdivisio
   compare("shell", solid(shell(20, 2)), -2.9 * mm, 2.3 * mm, dome);
 }
 
+TEST(Cutter, aPoseThatIsNoneLeavesItReady) {
+  SimplicialComplex body = solid(block(Vec3::Constant(0.004), {4, 4, 4}, 0, 1));
+  Cutter cutter(body);
+  const std::vector<Vec3> bad{Vec3::Zero(), Vec3::Constant(std::nan(""))};
+  EXPECT_THROW(cutter.advance(bad), std::invalid_argument);
+  EXPECT_FALSE(cutter.cutting());
+  for (int k = 0; k < 4; ++k) {
+    const Vec3 x(0.001 * k, 0.0021, 0);
+    cutter.advance(blade(x + Vec3(0, 0, 0.005), x + Vec3(0, 0, 0.002)));
+  }
+  EXPECT_FALSE(body.separatedFacets().empty());
+}
+
+TEST(Complex, aCornerThatIsNoVertexIsRefused) {
+  const std::vector<Vec3> points{Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  const std::vector<Tetrahedron> bad{{0, 1, 2, 4}};
+  EXPECT_THROW((void)SimplicialComplex::fromTetrahedra(points, bad), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace stroma::test

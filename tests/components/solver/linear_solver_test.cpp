@@ -2,6 +2,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "components/solver/packed_factor.h"
 #include "core/parallel.h"
 #include "tests/components/solver/test_scene.h"
 
@@ -85,6 +86,34 @@ TEST(LinearSolvers, assembledMatrixIsTheProducts) {
   const Eigen::MatrixXd lower = blocks.lower();
   const Eigen::MatrixXd full = lower.selfadjointView<Eigen::Lower>();
   EXPECT_LT((full - dense(matrix)).norm(), 1e-13 * full.norm());
+}
+
+TEST(PackedFactor, solvesToSinglePrecision) {
+  for (const double scale : {1e-30, 1.0, 1e30}) {
+    Loaded s = stretched("<SparseLDLSolver/>");
+    System& system = s.system();
+    system.linearize({system.x(), system.v(), 0});
+    const SystemMatrix matrix{system, 1, 0.01, 1e-2};
+    bool complete = false;
+    BlockMatrix blocks(system.pattern(complete));
+    matrix.assemble(blocks);
+    const BlockFactor factor(blocks.lower());
+    std::vector<Vec3> b = rightSide(system), x(b.size());
+    for (Vec3& value : b) value *= scale;
+    PackedFactor(factor).solve(b, x);
+    const Eigen::VectorXd exact = factor.solve(flat(ConstVec3Span(b)));
+    const double error = (flat(ConstVec3Span(x)) - exact).norm() / exact.norm();
+    std::printf("right side of %.0e: error %.1e\n", scale, error);
+    EXPECT_LT(error, 1e-5);
+  }
+}
+
+TEST(PackedFactor, aMatrixWithoutWholeBlocksIsRefused) {
+  Eigen::SparseMatrix<double> matrix(6, 6);
+  for (int i = 0; i < 6; ++i) matrix.insert(i, i) = 2;
+  matrix.insert(4, 0) = 1;
+  const BlockFactor factor(matrix);
+  EXPECT_THROW(PackedFactor{factor}, std::invalid_argument);
 }
 
 TEST(SparseLDL, iteratesOverWhatCannotBeAssembled) {
