@@ -43,20 +43,30 @@ void PenaltyContactForceField::start() {
   points_.clear();
   rubs_.clear();
   pressed_.clear();
-  solvesOnce_ = solvesOnce();
-}
-
-bool PenaltyContactForceField::solvesOnce() const {
   const System* system = scene().systemOf(state());
-  if (!system) return false;
-  const AttributeBase* iterations = system->integrator().attribute("newtonIterations");
-  return iterations && iterations->number() == 1.0;
+  solvesOnce_ = system && system->integrator().solvesOnce();
 }
 
 void PenaltyContactForceField::schedule(Schedule& schedule) {
+  warnOfEstimate();
   schedule.add<&PenaltyContactForceField::findContacts>(Stage::Collide, *this, "find contacts");
   // after the mapped states have followed, before the devices get their force
   schedule.add<&PenaltyContactForceField::publish>(Stage::Guard, *this, "contacts to the tools");
+}
+
+// Where a tool touches is found once a step, and an estimate of stability sees nothing of a
+// one-sided force before it acts.
+void PenaltyContactForceField::warnOfEstimate() {
+  const System* system = scene().systemOf(state());
+  if (!system) return;
+  const AttributeBase* substeps = system->integrator().attribute("substeps");
+  if (!substeps || substeps->number() == 1.0) return;
+  warning("contact-substeps",
+          "contact with an explicit solver needs 'substeps' of 1 and a short 'dt': contacts are "
+          "found once a step, and the estimate of stability does not see them before they press",
+          "give '" + system->integrator().name() +
+              "' substeps=\"1\" and the scene the length of a sub-step as 'dt', or use an "
+              "implicit solver");
 }
 
 void PenaltyContactForceField::findContacts(const StepContext& step) {

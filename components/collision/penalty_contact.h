@@ -39,7 +39,10 @@ struct EnumNames<ContactResponse> {
 // to both sides, until it has ended a step without pressing; without that the tissue would leap
 // after a tool that draws back and hit it again. Newton's method has the one-sided law itself.
 //
-// A stiffness some 10 to 30 times that of the tissue under the tool (about 60 N/m at a cornea's
+// An explicit solver needs a step as short as its sub-steps (substeps="1"): contacts are found once
+// a step, and its estimate of stability sees none before it presses. Otherwise a warning says so.
+//
+// A stiffness some 10 to 30 times that of the tissue under the tool (about 75 N/m at a cornea's
 // apex) leaves it 3 to 10 % of the indentation inside; more costs solver iterations.
 class PenaltyContactForceField final : public ForceField {
  public:
@@ -136,6 +139,7 @@ class PenaltyContactForceField final : public ForceField {
     double pressed = 0;           // normal force at the end of the last step
   };
 
+  void warnOfEstimate();
   void findContacts(const StepContext& step);
   void touchTool(std::size_t tool, std::uint64_t step);
   void touchSample(std::size_t tool, Index sample);
@@ -153,7 +157,6 @@ class PenaltyContactForceField final : public ForceField {
   [[nodiscard]] static double pressedDepth(const Point& point, ConstVec3Span x) {
     return point.depth(x) + point.shift;
   }
-  [[nodiscard]] bool solvesOnce() const;
   // Force on the surface along minus the normal.
   [[nodiscard]] double pressure(const Point& point, const StateView& at) const;
   [[nodiscard]] Vec3 stretchOf(const Rub& rub, ConstVec3Span x) const;

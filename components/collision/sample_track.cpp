@@ -32,6 +32,8 @@ void SampleTrack::setOutside(const Vec3& position) {
 
 std::optional<Touch> SampleTrack::follow(const BVHCollisionModel& surface, const Vec3& from,
                                          const Vec3& to, double radius, double margin) {
+  // set to a new place, not moved there: what lay on the way was not met
+  if (where_ != Where::unknown && position_ != from) forget();
   const bool known = where_ != Where::unknown;
   const Vec3 begin = known ? position_ : from;
   position_ = to;

@@ -26,8 +26,9 @@ struct Touch {
 // the sign of the distance; behind an open one a sample touches nothing.
 class SampleTrack {
  public:
-  // The surface is followed to this step. The sample, of this radius (m), moves from `from` (used
-  // where it was not tracked before) to `to`. Nothing farther than `margin` counts as a touch.
+  // The surface is followed to this step. The sample, of this radius (m), moves from `from` to
+  // `to`. Where `from` is not the place it went to last, it was set there, not moved: what was
+  // known of it is forgotten. Nothing farther than `margin` counts as a touch.
   [[nodiscard]] std::optional<Touch> follow(const BVHCollisionModel& surface, const Vec3& from,
                                             const Vec3& to, double radius, double margin);
   // The sample is far outside, or nothing is known of it.

@@ -5,6 +5,7 @@
 #include <ranges>
 
 #include "core/scene.h"
+#include "core/traverse.h"
 
 namespace stroma {
 namespace {
@@ -29,9 +30,31 @@ bool readValue(StateReader& reader, std::string_view name, T& value) {
   return reader.read(name, std::as_writable_bytes(std::span(&value, 1)));
 }
 
+// A plane that gives, at the tool's pose of now, the force that the contact gave. That is not
+// always stiffness times depth: the contact may be damped, or be a constraint. A contact that
+// neither presses nor is deep stays where the tissue is, and a rigid one (stiffness 0) does in any
+// case.
+ContactPlane planeOf(const Contact& c, const Pose& pose) {
+  const double pressing = std::max(0.0, c.force.dot(c.normal));
+  const Vec3 touching = c.point - c.depth * c.normal;
+  const bool soft = c.stiffness > 0 && (pressing > 0 || c.depth > 0);
+  const double shift = soft ? pressing / c.stiffness - c.depth : 0;
+  return {pose.orientation.conjugate() * (touching - pose.position), c.point + shift * c.normal,
+          c.normal, c.stiffness};
+}
+
 }  // namespace
 
 void HapticController::bind() {
+  for (const HapticController* other : collect<HapticController>(scene().root())) {
+    if (other == this) break;  // of two the later one is told
+    if (other->device.get() == device.get()) {
+      error(device, "haptic-second", "'" + other->path() + "' serves this device already");
+    } else if (other->tool.get() == tool.get()) {
+      error(tool, "haptic-second", "'" + other->path() + "' moves this tool already");
+    }
+  }
+  if (failed()) return;
   replay_ = dynamic_cast<const ReplayDevice*>(device.get());
   tool->setDriven(true);
   if (const std::filesystem::path file = record->path;
@@ -77,8 +100,6 @@ void HapticController::schedule(Schedule& schedule) {
 }
 
 void HapticController::reset() {
-  report_ = {};
-  counted_ = {};
   toolEpoch_ = 0;
   resumedAt_.reset();
   session_.close();
@@ -86,11 +107,15 @@ void HapticController::reset() {
   model_ = {};
   model_.parameters = parameters();
   if (loop_.running()) {
-    // the hand is where it is; only the contacts are gone
+    // the hand is where it is and has counted what it has; only the contacts are gone
+    static_cast<void>(loop_.newest(report_));
+    counted_ = report_.state;
     model_.sequence = sequence + 1;
     model_.time = loop_.now();
     loop_.publish(model_);
   } else {
+    report_ = {};
+    counted_ = {};
     loop_.restore({}, model_);
   }
 }
@@ -171,10 +196,8 @@ void HapticController::fillPlanes() {
   model_.force = tool->totalForce();
   for (int k = 0; k < model_.planeCount; ++k) {
     const Contact& c = contacts[chosen[static_cast<std::size_t>(k)]];
-    const Vec3 touching = c.point - c.depth * c.normal;
-    model_.planes[static_cast<std::size_t>(k)] = {
-        pose.orientation.conjugate() * (touching - pose.position), c.point, c.normal, c.stiffness};
-    model_.force -= c.force.dot(c.normal) * c.normal;
+    model_.planes[static_cast<std::size_t>(k)] = planeOf(c, pose);
+    model_.force -= std::max(0.0, c.force.dot(c.normal)) * c.normal;  // a plane does not pull
   }
 }
 
@@ -194,13 +217,13 @@ void HapticController::showState() {
   energy.set(state.energy);
   leastEnergy.set(state.leastEnergy);
   modelAge.set(state.modelAge);
-  faults.set(static_cast<int>(state.faults));
   faulty.set(state.faulty);
   clamped.add(state.clampedTicks - counted_.clampedTicks);
   slewed.add(state.slewedTicks - counted_.slewedTicks);
   restrained.add(state.passivityTicks - counted_.passivityTicks);
   silent.add(state.staleTicks - counted_.staleTicks);
   faultLimiter.add(state.faults - counted_.faults);
+  faults.set(static_cast<int>(faultLimiter.count()));
   counted_ = state;
 }
 
@@ -243,18 +266,22 @@ std::vector<std::filesystem::path> HapticController::files() const {
   return {sessionFile()};
 }
 
-// After a resumption the steps up to it are kept.
+// After a resumption the steps up to it are kept; without them there is no session to go on with,
+// and a file that is something else is left alone.
 void HapticController::openSession() {
   const std::filesystem::path file = sessionFile();
   std::string text = sessionHeader();
-  if (resumedAt_) {
+  if (resumedAt_.value_or(0) > 0) {
     std::ifstream stream(file, std::ios::binary);
     const std::string old{std::istreambuf_iterator<char>(stream), {}};
     std::vector<SessionFrame> frames;
-    if (readSession(old, frames).empty()) {
-      for (const SessionFrame& f : frames) {
-        if (f.step <= *resumedAt_) text += sessionLine(f);
-      }
+    if (const std::string problem = stream ? readSession(old, frames) : "is not there";
+        !problem.empty()) {
+      trouble_ = "cannot go on with the session '" + file.string() + "', which " + problem;
+      return;
+    }
+    for (const SessionFrame& f : frames) {
+      if (f.step <= *resumedAt_) text += sessionLine(f);
     }
   }
   std::error_code ignored;
@@ -266,14 +293,18 @@ void HapticController::openSession() {
 void HapticController::recordFrame(const SessionFrame& now) {
   if (files().empty()) return;
   if (!session_.is_open()) openSession();
-  session_ << sessionLine(now);
-  if (session_) return;
-  trouble_ = "cannot write '" + sessionFile().string() + "'";
+  if (trouble_.empty()) {
+    session_ << sessionLine(now);
+    if (session_) return;
+    trouble_ = "cannot write '" + sessionFile().string() + "'";
+  }
   error(record, "output", trouble_);
 }
 
 void HapticController::save(StateWriter& writer) const {
-  if (loop_.running()) return;  // the hand's side is another thread's, and cannot be gone back to
+  // in real time the hand's side is another thread's, and cannot be gone back to
+  writer.write("realTime", scene().options().realTime ? 1 : 0);
+  if (scene().options().realTime) return;
   writeValue(writer, "loop", loop_.memory());
   writeValue(writer, "model", model_);
   writeValue(writer, "report", report_);
@@ -284,8 +315,15 @@ void HapticController::save(StateWriter& writer) const {
 void HapticController::restore(StateReader& reader) {
   session_.close();
   resumedAt_ = scene().stepCount();
-  if (loop_.running()) {
+  int realTime = 0;
+  static_cast<void>(reader.read("realTime", realTime));
+  if (scene().options().realTime || realTime != 0) {
     toolEpoch_ = 0;  // the hand is elsewhere than the tool was
+    if (!scene().options().realTime) {
+      warning("haptic-resumed",
+              "a checkpoint of a run in real time does not hold the hand: it begins anew",
+              "resume in real time, or replay the run's session");
+    }
     return;
   }
   HapticLoop::Memory memory;

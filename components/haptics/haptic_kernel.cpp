@@ -30,6 +30,14 @@ bool isPlausible(const ToolSample& s, const HapticParameters& with, double dt,
   return !state.started || (s.pose.position - state.stylus).norm() <= most;
 }
 
+// Stiffnesses that a spring can have. What else is not finite in a model shows in the result.
+bool isPlausible(const LocalContactModel& model) {
+  const auto count = static_cast<std::size_t>(std::clamp(model.planeCount, 0, maxContactPlanes));
+  return std::ranges::all_of(std::span(model.planes).first(count), [](const ContactPlane& plane) {
+    return std::isfinite(plane.stiffness) && plane.stiffness >= 0;
+  });
+}
+
 struct Coupling {
   Pose proxy;
   Vec3 force = Vec3::Zero();  // on the tool by contacts and the rest (N)
@@ -163,7 +171,7 @@ Vec3 limited(const Vec3& wanted, double dt, const HapticParameters& with, Haptic
 HapticOutput HapticKernel::step(const ToolSample& sample, const LocalContactModel& model, double dt,
                                 HapticState& state) noexcept {
   const HapticParameters& with = model.parameters;
-  if (!isPlausible(sample, with, dt, state)) return fail(sample, state);
+  if (!isPlausible(sample, with, dt, state) || !isPlausible(model)) return fail(sample, state);
   const Vec3& x = sample.pose.position;
   const Vec3 moved = state.started ? Vec3(x - state.stylus) : Vec3(Vec3::Zero());
   const bool set = !state.started || state.jumped;

@@ -27,8 +27,7 @@ namespace stroma {
 inline constexpr int maxContactPlanes = 16;
 
 // A plane stays where it is until the next model: tissue that is felt too stiff for a moment and
-// then gives way costs the hand work, whereas one that follows its last velocity pays some back (it
-// broke the energy's bound twenty times over in the tests of passivity).
+// then gives way costs the hand work, whereas one that follows its last velocity pays some back.
 //
 // Where a sample of the tool meets the tissue: gap(p) = normal . (p + R arm - point), negative
 // inside, with the tool's origin p and orientation R.
@@ -36,7 +35,7 @@ struct ContactPlane {
   Vec3 arm = Vec3::Zero();      // the touching point in the tool's frame (m)
   Vec3 point = Vec3::Zero();    // on the tissue (m)
   Vec3 normal = Vec3::UnitZ();  // unit, out of the tissue
-  double stiffness = 0;         // N/m; 0 = rigid
+  double stiffness = 0;         // N/m; 0 = rigid; others are faults
 };
 
 // Units of the device unless said otherwise; see HapticController's attributes of the same names.

@@ -44,15 +44,16 @@ void HapticLoop::tick() noexcept {
 }
 
 bool HapticLoop::start(int priority) {
-  std::atomic<int> granted{-1};
+  granted_ = -1;
   origin_ = monotonicNanoseconds();
-  thread_ = std::jthread([this, priority, &granted](const std::stop_token& stopped) {
-    granted = setThreadPriority(priority) ? 1 : 0;
-    granted.notify_one();
+  tickAt(0, period_);
+  thread_ = std::jthread([this, priority](const std::stop_token& stopped) {
+    granted_ = setThreadPriority(priority) ? 1 : 0;
+    granted_.notify_one();
     run(stopped);
   });
-  granted.wait(-1);
-  return granted == 1;
+  granted_.wait(-1);
+  return granted_ == 1;
 }
 
 void HapticLoop::run(const std::stop_token& stopped) noexcept {

@@ -31,8 +31,10 @@ class HapticLoop {
 
   // One tick of simulated time, in the caller's thread.
   void tick() noexcept;
-  // Ticks at the wall clock's time until stop(). `priority` as for setThreadPriority(); false when
-  // the system refuses it (the thread then runs at ordinary priority).
+  // Ticks at the wall clock's time until stop(). The first is made before this returns, so that the
+  // simulation knows where the hand is from its first step on. `priority` as for
+  // setThreadPriority(); false when the system refuses it (the thread then runs at ordinary
+  // priority).
   [[nodiscard]] bool start(int priority);
   void stop();  // the last thing that the device gets is a force of zero
   [[nodiscard]] bool running() const { return thread_.joinable(); }
@@ -74,6 +76,7 @@ class HapticLoop {
   TripleBuffer<HapticReport> reports_;
   std::unique_ptr<RateKeeper> pace_ = std::make_unique<RateKeeper>(1000);
   DurationHistogram cpu_;
+  std::atomic<int> granted_ = -1;  // the priority: 1 or 0, -1 while not known
   std::jthread thread_;
 };
 

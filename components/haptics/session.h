@@ -3,7 +3,8 @@
 // that it needs to make the same step again, bit for bit.
 //
 // The file is text: a first line "stroma-session 1", a line that names the columns, then a line a
-// step. Numbers are hexadecimal floating point ("0x1.8p+1"), which lose nothing.
+// step. Numbers are hexadecimal floating point as std::to_chars writes it ("1.8p+1" is 3), which
+// lose nothing.
 #pragma once
 
 #include <cstdint>

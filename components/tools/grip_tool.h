@@ -6,7 +6,8 @@
 namespace stroma {
 
 // Forceps: while the trigger is held, a GripContact holds what surface it finds within `radius` of
-// the tip. Open, it is a sphere of that radius to whoever responds to contact.
+// the tip. To whoever responds to contact it is a sphere of that radius, open or closed, that would
+// push away what it holds: a grip is not meant to be among a contact's tools.
 class GripTool final : public RigidTool {
  public:
   Attribute<double> reach{this,

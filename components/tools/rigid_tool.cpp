@@ -57,6 +57,10 @@ void RigidTool::start() {
 }
 
 void RigidTool::schedule(Schedule& schedule) {
+  if (driven_ && device) {
+    error(device, "device-unread", "is not read: a controller moves this tool",
+          "leave 'device' out here; the controller's own says whose hand it is");
+  }
   if (driven_ || !device) return;
   schedule.add<&RigidTool::readDevice>(Stage::Input, *this, "pose of the device");
   schedule.add<&RigidTool::writeDevice>(Stage::Publish, *this, "force to the device");

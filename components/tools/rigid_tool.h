@@ -11,16 +11,16 @@ namespace stroma {
 // The tool's frame is the device's stylus: its tip is the origin, the handle lies towards +z, a
 // blade lies in the plane y = 0. The tool takes the device's pose at the end of the step in
 // Stage::Input and gives the device the total force in Stage::Publish. Where a haptic controller
-// drives it, it does neither. Velocities that a device leaves at zero while its pose moves are
-// those of the motion over the step.
+// drives it, it does neither, and a device given to it is an error. Velocities that a device leaves
+// at zero while its pose moves are those of the motion over the step.
 //
 // A pose that is not finite moves nothing: the tool stands still for that step, which is counted.
 class RigidTool : public Tool {
  public:
   Link<HapticDevice> device{this,
                             "device",
-                            "What moves the tool and feels its force. Not given where a haptic "
-                            "controller drives it; otherwise the tool rests at the origin.",
+                            "What moves the tool and feels its force. Must not be given where a "
+                            "haptic controller drives it; else, without, it rests at the origin.",
                             Lookup::explicitOnly,
                             {.required = false}};
   Attribute<Vec3> position{

@@ -14,6 +14,7 @@ namespace stroma {
 
 void ScriptedDevice::bind() {
   keys_.clear();
+  realTime_ = scene().options().realTime;
   if (filename.isSet() == keyTimes.isSet()) {
     error("attr-conflict", filename.isSet() ? "has both 'filename' and 'keyTimes'" : "has no poses",
           "give either a CSV file or 'keyTimes' and 'positions'");
@@ -89,10 +90,15 @@ void ScriptedDevice::takeAttributes() {
   }
 }
 
+void ScriptedDevice::schedule(Schedule& schedule) {
+  if (!realTime_) return;
+  schedule.add<&ScriptedDevice::showNewest>(Stage::Publish, *this, "force felt");
+}
+
 void ScriptedDevice::reset() {
+  if (realTime_) return;
   sequence_ = 0;
-  force.set(Vec3::Zero());
-  torque.set(Vec3::Zero());
+  show({});
 }
 
 ToolSample ScriptedDevice::read(double time) noexcept {
@@ -102,21 +108,36 @@ ToolSample ScriptedDevice::read(double time) noexcept {
 }
 
 void ScriptedDevice::write(double, const Vec3& newForce, const Vec3& newTorque) noexcept {
-  force.set(newForce);
-  torque.set(newTorque);
+  const FeltForce felt{newForce, newTorque};
+  if (realTime_) {
+    felt_.write(felt);
+  } else {
+    show(felt);
+  }
+}
+
+void ScriptedDevice::show(const FeltForce& felt) {
+  force.set(felt.force);
+  torque.set(felt.torque);
+}
+
+void ScriptedDevice::showNewest(const StepContext&) {
+  FeltForce felt;
+  if (felt_.read(felt)) show(felt);
 }
 
 void ScriptedDevice::save(StateWriter& writer) const {
+  if (realTime_) return;
   const std::array<Vec3, 2> felt{*force, *torque};
   writer.write("felt", ConstVec3Span(felt));
   writer.write("sequence", sequence_);
 }
 
 void ScriptedDevice::restore(StateReader& reader) {
+  if (realTime_) return;
   std::array<Vec3, 2> felt{*force, *torque};
   if (!reader.read("felt", Vec3Span(felt)) || !reader.read("sequence", sequence_)) return;
-  force.set(felt[0]);
-  torque.set(felt[1]);
+  show({felt[0], felt[1]});
 }
 
 }  // namespace stroma

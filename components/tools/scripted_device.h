@@ -3,13 +3,21 @@
 
 #include "components/tools/key_poses.h"
 #include "core/attribute.h"
+#include "core/channel.h"
+#include "core/schedule.h"
 
 namespace stroma {
+
+// What a hand is given to feel.
+struct FeltForce {
+  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();  // N, N m
+};
 
 // A device whose stylus follows a script: poses at key times, given here or in a CSV file
 // (time,x,y,z[,qx,qy,qz,qw][,buttons]; seconds, metres, unit quaternions; # starts a comment line).
 // Between the keys the position is linear and the orientation turns at constant speed; velocities
-// are the exact derivatives. The force that the hand would feel is kept as an output.
+// are the exact derivatives. The force that the hand would feel is kept as an output; in real time,
+// where a haptic thread writes it, the outputs show the newest one at the end of each step.
 class ScriptedDevice final : public HapticDevice {
  public:
   Attribute<std::vector<double>> keyTimes{
@@ -49,6 +57,7 @@ class ScriptedDevice final : public HapticDevice {
                          {.unit = "N m", .output = true}};
 
   void bind() override;
+  void schedule(Schedule& schedule) override;
   void reset() override;
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
@@ -62,8 +71,13 @@ class ScriptedDevice final : public HapticDevice {
   void takeAttributes();
   [[nodiscard]] bool hasCount(const AttributeBase& attribute, std::size_t count, bool oneForAll);
 
+  void show(const FeltForce& felt);
+  void showNewest(const StepContext& step);
+
   std::vector<KeyPose> keys_;
-  std::uint64_t sequence_ = 0;
+  std::uint64_t sequence_ = 0;  // of whoever reads
+  bool realTime_ = false;       // reading and writing are then the haptic thread's
+  TripleBuffer<FeltForce> felt_;
 };
 
 }  // namespace stroma

@@ -38,8 +38,8 @@ class Tool : public Component {
   // cut.
   [[nodiscard]] virtual std::span<const Vec3> edge() const = 0;
 
-  // Whether the edge is inside the tissue: set by who cuts, read by who responds to contact, which
-  // then leaves the edge's samples alone.
+  // Whether the edge is inside the tissue: set by who cuts, read by who responds to contact, to
+  // which none of the tool's samples then touches anything.
   [[nodiscard]] virtual bool cutting() const = 0;
   virtual void setCutting(bool cutting) = 0;
 

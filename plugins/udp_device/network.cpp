@@ -25,21 +25,25 @@ UdpDevice::Network::~Network() {
   if (thread_.joinable()) thread_.join();
 }
 
-std::string UdpDevice::Network::open(const std::string& address, int port) {
+std::optional<UdpDevice::Network::Problem> UdpDevice::Network::open(const std::string& address,
+                                                                    int port) {
   boost::system::error_code failure;
   const auto host = boost::asio::ip::make_address(address, failure);
-  if (failure) return "'" + address + "' is no address: " + failure.message();
+  if (failure) return Problem{"'" + address + "' is no address: " + failure.message(), true};
   const boost::asio::ip::udp::endpoint endpoint(host, static_cast<std::uint16_t>(port));
   socket_.open(endpoint.protocol(), failure);
   if (!failure) socket_.bind(endpoint, failure);
   if (!failure) socket_.non_blocking(true, failure);
   if (failure) {
-    return "cannot listen at " + address + ":" + std::to_string(port) + ": " + failure.message();
+    return Problem{
+        "cannot listen at " + address + ":" + std::to_string(port) + ": " + failure.message(),
+        failure == boost::asio::error::address_family_not_supported ||
+            failure.value() == boost::system::errc::address_not_available};
   }
   port_ = socket_.local_endpoint(failure).port();
   receive();
   thread_ = std::jthread([this] { context_.run(); });
-  return "";
+  return std::nullopt;
 }
 
 void UdpDevice::Network::receive() {

@@ -7,6 +7,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/udp.hpp>
 #include <chrono>
+#include <optional>
 #include <thread>
 
 #include "plugins/udp_device/protocol.h"
@@ -29,8 +30,12 @@ class UdpDevice::Network {
       : samples_(samples), forces_(forces), limits_(limits), socket_(context_) {}
   ~Network();
 
-  // Starts listening; what is wrong, or "".
-  [[nodiscard]] std::string open(const std::string& address, int port);
+  struct Problem {
+    std::string text;
+    bool ofAddress = false;  // rather than of the port
+  };
+  // Starts listening, or says why not.
+  [[nodiscard]] std::optional<Problem> open(const std::string& address, int port);
   [[nodiscard]] int port() const { return port_; }
   [[nodiscard]] const Counts& counts() const { return counts_; }
 

@@ -13,8 +13,16 @@ void UdpDevice::start() {
   newest_.pose.position = home;
   network_ =
       std::make_unique<Network>(samples_, forces_, Network::Limits{maxPosition, peerTimeout});
-  if (const std::string problem = network_->open(address, port); !problem.empty()) {
-    error(port, "udp-listen", problem);
+  if (const auto problem = network_->open(address, port)) {
+    const AttributeBase& wrong =
+        problem->ofAddress ? static_cast<const AttributeBase&>(address) : port;
+    error(wrong, "udp-listen", problem->text);
+  }
+  if (!scene().options().realTime) {
+    warning("udp-batch",
+            "poses come by the wall clock, and this run is not by it: it will not be the same "
+            "when made again",
+            "run in real time; a session that a HapticController records can be made again");
   }
   boundPort.set(network_->port());
 }

@@ -274,6 +274,32 @@ TEST_F(Udp, aPortThatIsTakenIsAnError) {
   EXPECT_NE(other.diagnostics().text().find("udp-listen"), std::string::npos);
 }
 
+TEST_F(Udp, anAddressThatIsNoneIsAnErrorOfTheAddress) {
+  // the second is well formed, but no address of this machine
+  for (const std::string address : {"nowhere", "192.0.2.1"}) {
+    Scene other(withoutModules());
+    other.registry().add<UdpDevice>("UdpDevice");
+    const std::string text =
+        "<Node>\n<UdpDevice port=\"0\"\n\naddress=\"" + address + "\"/></Node>";
+    EXPECT_FALSE(other.loadText(text, "udp.xml") && other.initialise());
+    const std::string problems = other.diagnostics().text();
+    EXPECT_NE(problems.find("udp-listen"), std::string::npos);
+    EXPECT_NE(problems.find("udp.xml:4:"), std::string::npos) << problems;
+  }
+}
+
+TEST_F(Udp, inBatchItWarnsThatTheRunCannotBeMadeAgain) {
+  listen();
+  EXPECT_NE(scene_.diagnostics().text().find("udp-batch"), std::string::npos);
+  SceneOptions options = withoutModules();
+  options.realTime = true;
+  Scene live(options);
+  live.registry().add<UdpDevice>("UdpDevice");
+  ASSERT_TRUE(live.loadText("<Node><UdpDevice port=\"0\"/></Node>", "udp.xml"));
+  ASSERT_TRUE(live.initialise()) << live.diagnostics().text();
+  EXPECT_EQ(live.diagnostics().text(), "");
+}
+
 TEST_F(Udp, readingAndWritingBesideTheNetworkIsNoRace) {
   UdpDevice& device = listen();
   const Host host(device.boundPort);

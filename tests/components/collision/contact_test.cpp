@@ -243,6 +243,41 @@ TEST(Tunnelling, teleportThroughThePlateIsHeldCappedAndCounted) {
   EXPECT_EQ(toolOf(s).totalForce(), Vec3::Zero());
 }
 
+TEST(Tunnelling, aToolThatIsSetBeyondThePlateIsNotHeld) {
+  for (const bool isSet : {false, true}) {
+    const Loaded s =
+        loadCollision("<ScalpelTool name='probe' length='1' sampleCount='1'/>" +
+                      heldSurface(plate()) + contact("stiffness='100' maxDepth='2 mm'"));
+    const auto move = [&](double z) {
+      toolOf(s).moveTo({Vec3(1.1e-3, 0.3e-3, z), Quat::Identity()}, Vec3::Zero(), Vec3::Zero(),
+                       false);
+    };
+    // near enough to be followed
+    move(0.1e-3);
+    s.run(1);
+    move(-3e-3);
+    if (isSet) move(-3e-3);
+    s.run(1);
+    EXPECT_EQ(toolOf(s).contactCount, isSet ? 0 : 1);
+    move(-2.5e-3);
+    s.run(1);
+    EXPECT_EQ(toolOf(s).contactCount, isSet ? 0 : 1);
+  }
+}
+
+TEST(Contact, anExplicitSolverIsAskedForItsSubsteps) {
+  const auto text = [](const std::string& solver) {
+    return loadCollision(hand("0", "0 0 9") + probe + solver + meshOf(grid(1, 4)) +
+                         "<MechanicalObject name='nodes'/><UniformMass vertexMass='1'/>"
+                         "<BVHCollisionModel name='collision'/>" +
+                         contact("stiffness='1'"))
+        .text();
+  };
+  EXPECT_NE(text("<EulerExplicitSolver/>").find("needs 'substeps'"), std::string::npos);
+  EXPECT_EQ(text("<EulerExplicitSolver substeps='1'/>").find("'substeps'"), std::string::npos);
+  EXPECT_EQ(text("<EulerImplicitSolver/><CGLinearSolver/>").find("'substeps'"), std::string::npos);
+}
+
 TEST(Tunnelling, aFastSurfaceDoesNotPassAStandingTool) {
   // an open sheet of free nodes that flies upwards at 2 m/s
   const Surface sheet = grid(2, 0.01);

@@ -42,11 +42,11 @@ namespace {
 
 std::atomic<long> readings{0};
 
-// A hand that counts the allocations of the thread that reads it, from the first reading on.
+// A hand that counts the allocations of the thread that reads it, from the second reading on.
 class CountingDevice final : public HapticDevice {
  public:
   [[nodiscard]] ToolSample read(double time) noexcept override {
-    counting = true;
+    counting = readings > 0;  // the first one is made by who starts the thread
     ++readings;
     ToolSample sample;
     sample.time = time;

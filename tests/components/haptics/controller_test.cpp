@@ -46,15 +46,68 @@ TEST(Controller, goesOnFromACheckpointWithTheSameBits) {
   ASSERT_TRUE(a.controller);
   a.step(83);
   const Snapshot snapshot = a.scene->save();
+  const Pose pose = a.tool->pose();
   a.step(100);
   const std::uint64_t trace = a.tissue->trace;
   const Vec3 force = a.controller->force;
+  const double height = a.tissue->height;
+  EXPECT_GT(force.z(), 0.1);
   ASSERT_TRUE(a.scene->restore(snapshot));
-  // what the tool keeps of its own is the tool's affair
+  EXPECT_NE(a.tissue->trace, trace);
+  a.tool->moveTo(pose, Vec3::Zero(), Vec3::Zero(), false);  // this tool keeps nothing
   a.step(100);
   EXPECT_EQ(a.controller->force.value(), force);
-  EXPECT_EQ(a.tissue->height != 0, true);
-  EXPECT_GT(trace, 0u);
+  EXPECT_EQ(a.tissue->height, height);
+  EXPECT_EQ(a.tissue->trace, trace);
+}
+
+// A contact whose force is other than stiffness times depth, as a constraint's or a damped one's.
+class Constraint final : public Component {
+ public:
+  Attribute<double> pressing{this, "pressing", 0.3, "Force while inside.", {.unit = "N"}};
+  Link<Tool> tool{this, "tool", "What touches.", Lookup::nearest};
+  void schedule(Schedule& schedule) override {
+    schedule.add<&Constraint::press>(Stage::Solve, *this, "press");
+  }
+
+ private:
+  void press(const StepContext&) {
+    Contact contact;
+    contact.depth = -tool->pose().position.z();
+    contact.stiffness = 300;
+    contact.force = {0, 0, contact.depth > 0 ? *pressing : 0};
+    tool->setContacts({&contact, 1U});
+  }
+};
+
+TEST(Controller, theHandFeelsTheContactsForceAndNotStiffnessTimesDepth) {
+  for (const double pressing : {0.3, 1.0, 0.0}) {
+    TouchOptions options;
+    options.device =
+        "<SoftwareHandDevice positions=\"0 0 0.005  0 0 -0.01\" keyTimes=\"0 0.5\"/><Extra "
+        "pressing=\"" +
+        ValueTraits<double>::print(pressing) + "\"/>";
+    TouchScene touch = touchScene<Constraint>(options);
+    ASSERT_TRUE(touch.controller) << touch.problems;
+    touch.step(400);
+    const double felt = touch.controller->force->z(), depth = -touch.tool->pose().position.z();
+    std::printf("contact %.3f N, felt %.9f N, stiffness times depth %.3f N\n", pressing, felt,
+                300 * depth);
+    // the tool rests where hand (200 N/m) and coupling (500 N/m) hold that force
+    EXPECT_NEAR(felt, pressing, 1e-6);
+    EXPECT_NEAR(depth, 0.01 - pressing * (1 / 200.0 + 1 / 500.0), 1e-8);
+  }
+}
+
+TEST(Controller, aSecondOneOnADeviceOrAToolIsAnError) {
+  TouchOptions options;
+  options.device = "<SoftwareHandDevice positions=\"0 0 1\"/><HapticController name=\"first\"/>";
+  EXPECT_NE(touchScene(options).problems.find("haptic-second"), std::string::npos);
+  options.device =
+      "<SoftwareHandDevice name=\"a\" positions=\"0 0 1\"/><SoftwareHandDevice name=\"b\" "
+      "positions=\"0 0 1\"/><HapticController name=\"first\" device=\"@a\"/>";
+  options.controller = "device=\"@b\"";
+  EXPECT_NE(touchScene(options).problems.find("haptic-second"), std::string::npos);
 }
 
 TEST(Controller, otherForcesOnTheToolReachTheHand) {

@@ -213,17 +213,28 @@ TEST_F(Kernel, teleportingAllTheTimeNeverGivesForce) {
 TEST_F(Kernel, contactsThatAreNoneGiveZeroForce) {
   settle(Vec3(0, 0, -0.004));
   const LocalContactModel good = model_;
+  const HapticState pressing = state_;
+  ASSERT_GT(pressing.force.z(), 0.1);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (int field = 0; field < 4; ++field) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (int field = 0; field < 6; ++field) {
     model_ = good;
+    state_ = pressing;
     if (field == 0) model_.planes[0].point.z() = nan;
     if (field == 1) model_.planes[0].normal.x() = nan;
     if (field == 2) model_.planes[0].stiffness = nan;
     if (field == 3) model_.force.y() = nan;
+    if (field == 4) model_.planes[0].stiffness = -300;
+    if (field == 5) model_.planes[0].stiffness = infinite;
     const HapticOutput output = at(Vec3(0, 0, -0.004));
-    EXPECT_TRUE(output.force.allFinite()) << field;
+    EXPECT_TRUE(output.force.isZero(0)) << field;
     EXPECT_TRUE(output.proxy.position.allFinite()) << field;
+    EXPECT_EQ(state_.faults, pressing.faults + 1) << field;
+    EXPECT_TRUE(state_.faulty) << field;
   }
+  model_ = good;
+  state_ = pressing;
+  EXPECT_GT(at(Vec3(0, 0, -0.004)).force.z(), 0.1) << "a good one is felt";
 }
 
 TEST_F(Kernel, aSilentSimulationFadesTheForceOutAndInAgain) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -36,15 +37,23 @@ TEST(RateKeeper, theRateHoldsWithoutDrift) {
   static_cast<void>(setThreadPriority(0));
   pace.start();
   const auto begin = std::chrono::steady_clock::now();
-  double sum = 0;
-  while (pace.statistics().deadlines < 500) sum += pace.wait();
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+  double sum = 0, earliest = 1;  // earliest: over the deadline, of the last fifth
+  std::chrono::duration<double> elapsed{};
+  while (pace.statistics().deadlines < 500) {
+    sum += pace.wait();
+    elapsed = std::chrono::steady_clock::now() - begin;
+    const auto deadlines = static_cast<double>(pace.statistics().deadlines);
+    if (deadlines > 400) earliest = std::min(earliest, elapsed.count() - 1e-3 * deadlines);
+  }
   const PaceStatistics s = pace.statistics();
   std::printf("%.1f Hz, periods p50 %.4f p99 %.4f max %.4f ms, %llu of %llu missed\n", s.rate,
               1e3 * s.p50, 1e3 * s.p99, 1e3 * s.max, static_cast<unsigned long long>(s.misses),
               static_cast<unsigned long long>(s.deadlines));
-  // 500 deadlines, the newest of which has just passed
-  EXPECT_GE(elapsed.count(), 0.4999);
+  // each is waited for, and after hundreds the quickest wait still ends at its deadline; the
+  // others may be late for the machine's sake
+  std::printf("the earliest of the last came %.4f ms after its deadline\n", 1e3 * earliest);
+  EXPECT_GE(earliest, -1e-4);
+  EXPECT_LT(earliest, 1e-3);
   EXPECT_NEAR(sum, elapsed.count(), 0.01);
 }
 

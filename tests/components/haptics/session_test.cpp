@@ -158,6 +158,28 @@ TEST_F(Session, aResumedRunKeepsTheStepsBefore) {
   EXPECT_EQ(replayed.tissue->trace, whole.tissue->trace);
 }
 
+TEST_F(Session, aResumedRunWithoutTheStepsBeforeSaysSo) {
+  TouchScene whole = touchScene(recording());
+  ASSERT_TRUE(whole.controller) << whole.problems;
+  whole.step(20);
+  const Snapshot snapshot = whole.scene->save();
+  whole.scene->stop();
+  const fs::path file = folder_ / "hand.session";
+  for (const bool there : {false, true}) {
+    fs::remove(file);
+    if (there) std::ofstream(file) << "something else";
+    TouchScene resumed = touchScene(recording());
+    ASSERT_TRUE(resumed.scene->restore(snapshot));
+    static_cast<void>(resumed.scene->step());
+    EXPECT_NE(resumed.controller->trouble().find("cannot go on"), std::string::npos);
+    EXPECT_TRUE(resumed.controller->files().empty());
+    EXPECT_EQ(fs::exists(file), there);
+    if (there) {
+      EXPECT_EQ(fs::file_size(file), 14u) << "left alone";
+    }
+  }
+}
+
 TEST_F(Session, aFileThatIsNoneIsAnError) {
   std::ofstream(folder_ / "bad.session") << "stroma-session 1\n1 2 3\n";
   const TouchScene bad = replay("bad.session");

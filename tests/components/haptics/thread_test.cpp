@@ -77,6 +77,61 @@ TEST(HapticThread, runsBesideTheSimulation) {
   EXPECT_EQ(*touch.controller->faults, 0);
 }
 
+TEST(HapticThread, theToolIsWhereTheHandIsFromTheFirstStepOn) {
+  for (int i = 0; i < 20; ++i) {
+    TouchOptions options;
+    options.realTime = true;
+    options.device = "<Extra/>";
+    TouchScene touch = touchScene<HeldDevice>(options);
+    ASSERT_TRUE(touch.controller) << touch.problems;
+    touch.step();
+    EXPECT_NEAR(touch.tool->pose().position.z(), -0.004, 1e-12);
+    EXPECT_EQ(touch.tool->linearVelocity(), Vec3::Zero());
+  }
+}
+
+TEST(HapticThread, aResetCountsFromThereOn) {
+  TouchOptions options;
+  options.realTime = true;
+  options.device = "<Extra/>";
+  options.controller = "maxForce=\"0.02\"";
+  TouchScene touch = touchScene<HeldDevice>(options);
+  ASSERT_TRUE(touch.controller) << touch.problems;
+  RateKeeper pace(100);
+  pace.start();
+  for (int i = 0; i < 60; ++i) {
+    pace.wait();
+    touch.step();
+  }
+  const std::uint64_t before = touch.controller->clamped.count();
+  touch.scene->reset();
+  touch.step();
+  pace.wait();
+  touch.step();
+  const std::uint64_t after = touch.controller->clamped.count();
+  std::printf("%llu clamped ticks, %llu after a reset and 10 ms\n",
+              static_cast<unsigned long long>(before), static_cast<unsigned long long>(after));
+  EXPECT_GT(before, 100u);
+  EXPECT_LT(after, before / 2);
+}
+
+TEST(HapticThread, aCheckpointInRealTimeWarnsInBatchThatItHasNoHand) {
+  TouchOptions options;
+  options.realTime = true;
+  TouchScene live = touchScene(options);
+  ASSERT_TRUE(live.controller) << live.problems;
+  live.step(3);
+  const Snapshot snapshot = live.scene->save();
+  ASSERT_TRUE(live.scene->restore(snapshot));
+  EXPECT_EQ(live.scene->diagnostics().text().find("haptic-resumed"), std::string::npos);
+  options.realTime = false;
+  TouchScene batch = touchScene(options);
+  ASSERT_TRUE(batch.scene->restore(batch.scene->save()));
+  EXPECT_EQ(batch.scene->diagnostics().text().find("haptic-resumed"), std::string::npos);
+  ASSERT_TRUE(batch.scene->restore(snapshot));
+  EXPECT_NE(batch.scene->diagnostics().text().find("haptic-resumed"), std::string::npos);
+}
+
 TEST(HapticThread, isStartedAndStoppedManyTimes) {
   for (int i = 0; i < 30; ++i) {
     TouchOptions options;

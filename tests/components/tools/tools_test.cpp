@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "components/tools/rigid_motion.h"
 #include "tests/components/tools/tool_scene.h"
@@ -8,13 +10,23 @@
 namespace stroma::test {
 namespace {
 
-Loaded tryTools(const std::string& content, const std::filesystem::path& file = "test.xml") {
+// Moves a tool, as a haptic controller does.
+class Driver final : public Component {
+ public:
+  Link<Tool> tool{this, "tool", "What it moves.", Lookup::nearest};
+  void bind() override { tool->setDriven(true); }
+};
+
+Loaded tryTools(const std::string& content, const std::filesystem::path& file = "test.xml",
+                bool realTime = false) {
   SceneOptions options;
   options.pluginFolders.clear();
   options.writesOutput = false;
+  options.realTime = realTime;
   Loaded loaded{std::make_unique<Scene>(options), false};
   registerAll(loaded.scene->registry());
   registerTools(loaded.scene->registry());
+  loaded.scene->registry().add<Driver>("Driver");
   loaded.ready = loaded.scene->loadText(dtNode(0.001, content), file) && loaded.scene->initialise();
   return loaded;
 }
@@ -121,6 +133,43 @@ TEST(ScriptedDevice, mistakesInTablesAreNamedWithTheirPlace) {
   }
 }
 
+// No races, under the thread sanitizer, between the thread of the hand and what a user does.
+TEST(ScriptedDevice, isReadAndWrittenBesideTheSceneInRealTime) {
+  const Loaded s = tryTools(wavy, "test.xml", true);
+  ASSERT_TRUE(s.ready) << s.text();
+  auto& device = s.find<ScriptedDevice>();
+  constexpr int count = 20'000;
+  std::atomic<bool> ended = false;
+  bool counts = true;
+  std::thread hand([&] {
+    for (int k = 1; k <= count; ++k) {
+      counts = counts && device.read(1e-6 * k).sequence == static_cast<std::uint64_t>(k);
+      device.write(1e-6 * k, Vec3(k, 0, -k), Vec3(0, k, 0));
+    }
+    ended = true;
+  });
+  int torn = 0, backwards = 0, rounds = 0;
+  double last = 0;
+  for (; !ended || rounds < 50; ++rounds) {
+    s.run(1);
+    const Vec3 f = device.force, t = device.torque;
+    if (f.x() != -f.z() || f.x() != t.y()) ++torn;
+    if (f.x() < last) ++backwards;
+    last = f.x();
+    if (rounds % 7 == 3) {
+      EXPECT_TRUE(s.scene->restore(s.scene->save()));
+    }
+    if (rounds % 11 == 5) s.scene->reset();
+  }
+  hand.join();
+  s.run(1);
+  EXPECT_TRUE(counts) << "neither reset nor restore touches what the hand's thread counts";
+  EXPECT_EQ(torn, 0);
+  EXPECT_EQ(backwards, 0);
+  EXPECT_EQ(*device.force, Vec3(count, 0, -count)) << "the newest force is shown";
+  std::printf("%d steps beside %d ticks\n", rounds, count);
+}
+
 TEST(Tools, mistakesAreNamed) {
   const std::vector<std::pair<std::string, std::string>> mistakes = {
       {"<ProbeTool/>", "radius"},
@@ -134,7 +183,8 @@ TEST(Tools, mistakesAreNamed) {
       {"<ScriptedDevice keyTimes='0 1 2' positions='0 0 0 0 0 0 0 0 0' buttons='1 1'/>",
        "2 values for 3 key times"},
       {"<ScriptedDevice keyTimes='0' positions='0 0 0' filename='x.csv'/>", "both"},
-      {"<ScriptedDevice filename='missing.csv'/>", "missing.csv"}};
+      {"<ScriptedDevice filename='missing.csv'/>", "missing.csv"},
+      {wavy + "<ProbeTool device='@hand' radius='1 mm'/><Driver/>", "a controller moves this"}};
   for (const auto& [content, expected] : mistakes) {
     const Loaded s = tryTools(content);
     EXPECT_FALSE(s.ready) << content;
