@@ -129,28 +129,37 @@ class Extrapolator {
   // the point, down to the far side of the shell. All that lie nearer than the last of them are
   // among the candidates when these reach as far as the metric's longest axis.
   void nearestInMetric(const Vec3& point) {
-    for (std::size_t wanted = 3 * nearest_.size();; wanted *= 2) {
+    // what was found for a point close by often reaches far enough
+    bool found = !wide_.empty() && pickNearest(point);
+    for (std::size_t wanted = 4 * nearest_.size(); !found; wanted *= 2) {
       wide_.resize(std::min(wanted, carriers_.size()));
       wideSquared_.resize(wide_.size());
       tree_->nearest(point, wide_, wideSquared_);
-      candidates_.clear();
-      for (const Index k : wide_)
-        candidates_.emplace_back(n_.distance(id_[k], point - carriers_[k]), k);
-      const auto last = candidates_.begin() + static_cast<std::ptrdiff_t>(nearest_.size());
-      std::partial_sort(candidates_.begin(), last, candidates_.end());
-      const double reach = std::sqrt(wideSquared_.back());
-      if (wide_.size() == carriers_.size() || (last - 1)->first * longestAxis_ <= reach) break;
+      centre_ = point;
+      found = pickNearest(point);
     }
     for (std::size_t k = 0; k < nearest_.size(); ++k) {
       nearest_[k] = candidates_[k].second;
       squared_[k] = candidates_[k].first * candidates_[k].first;
     }
   }
+  // The nearest in the metric among the particles found around the centre; whether no other
+  // particle can be nearer.
+  bool pickNearest(const Vec3& point) {
+    candidates_.clear();
+    for (const Index k : wide_)
+      candidates_.emplace_back(n_.distance(id_[k], point - carriers_[k]), k);
+    const auto last = candidates_.begin() + static_cast<std::ptrdiff_t>(nearest_.size());
+    std::partial_sort(candidates_.begin(), last, candidates_.end());
+    const double reach = std::sqrt(wideSquared_.back()) - (point - centre_).norm();
+    return wide_.size() == carriers_.size() || (last - 1)->first * longestAxis_ <= reach;
+  }
 
   ConstVec3Span X_;
   const Neighbourhoods& n_;
   const Gradients& gradients_;
-  double longestAxis_ = 0;  // of the supports' metric
+  double longestAxis_ = 0;      // of the supports' metric
+  Vec3 centre_ = Vec3::Zero();  // of the last search in the tree, and what it found
   std::vector<Index> wide_;
   std::vector<double> wideSquared_;
   std::vector<std::pair<double, Index>> candidates_;
