@@ -30,7 +30,8 @@ template <int N>
         if (A(p, q) == 0) continue;
         // the smaller root of t^2 + 2 t theta - 1 = 0 zeroes A(p, q)
         const double theta = (A(q, q) - A(p, p)) / (2 * A(p, q));
-        const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(theta * theta + 1));
+        const double t =
+            std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(theta * theta + 1));
         const double c = 1 / std::sqrt(t * t + 1), s = t * c;
         for (int k = 0; k < N; ++k) {
           const double kp = A(k, p), kq = A(k, q);
