@@ -31,7 +31,8 @@ void BlockOrdering::operator()(const Eigen::SparseMatrix<double>& matrix,
 
 PackedFactor::PackedFactor(const BlockFactor& factor) {
   const Eigen::SparseMatrix<double>& L = factor.matrixL().nestedExpression();
-  const Eigen::VectorXd pivots = factor.vectorD();
+  largestPivot_ = factor.vectorD().maxCoeff();
+  const Eigen::VectorXd inverse = largestPivot_ * factor.vectorD().cwiseInverse();
   const auto& place = factor.permutationP().indices();
   const Eigen::Index blocks = L.cols() / 3;
   const auto count = static_cast<std::size_t>(blocks);
@@ -60,7 +61,7 @@ PackedFactor::PackedFactor(const BlockFactor& factor) {
         single(values[start[0]]),
         single(values[start[0] + 1]),
         single(values[start[1]]),
-        {single(1 / pivots[3 * j]), single(1 / pivots[3 * j + 1]), single(1 / pivots[3 * j + 2])}};
+        {single(inverse[3 * j]), single(inverse[3 * j + 1]), single(inverse[3 * j + 2])}};
     for (int at = 0; at < below; at += 3) {
       row_.push_back(rows[first[0] + at] / 3);
       Block block;
@@ -75,8 +76,10 @@ PackedFactor::PackedFactor(const BlockFactor& factor) {
 }
 
 void PackedFactor::solve(ConstVec3Span r, Vec3Span z) {
-  const double scale = flat(r).cwiseAbs().maxCoeff();
-  if (!(scale > 0)) {
+  if (r.empty()) return;
+  // what is not finite makes the scale or the quotients so, and is seen in z
+  const double scale = flat(r).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  if (scale == 0) {
     std::ranges::fill(z, Vec3::Zero());
     return;
   }
@@ -117,7 +120,7 @@ void PackedFactor::solve(ConstVec3Span r, Vec3Span z) {
   }
   for (std::size_t i = 0; i < place_.size(); ++i) {
     const Lanes& x = work_[static_cast<std::size_t>(place_[i])].value;
-    z[i] = scale * Vec3(x[0], x[1], x[2]);
+    z[i] = (scale / largestPivot_) * Vec3(x[0], x[1], x[2]);
   }
 }
 

@@ -22,12 +22,12 @@ using BlockFactor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lo
 // Good to about six digits: a preconditioner, not a solution.
 class PackedFactor {
  public:
-  // The factor must have been computed, with pivots that are not zero. Throws std::invalid_argument
+  // The factor must have been computed, with positive pivots. Throws std::invalid_argument
   // where its matrix did not consist of whole 3x3 blocks.
   explicit PackedFactor(const BlockFactor& factor);
   PackedFactor() = default;
 
-  // z is about A^-1 r. Any scale of r and z keeps its digits.
+  // z is about A^-1 r, whatever the scales of A and r; not finite where r is not.
   void solve(ConstVec3Span r, Vec3Span z);
 
  private:
@@ -39,9 +39,10 @@ class PackedFactor {
     Lanes value;
   };
   struct Diagonal {
-    float l10, l20, l21;  // of the unit triangle
-    float inversePivot[3];
+    float l10, l20, l21;    // of the unit triangle
+    float inversePivot[3];  // times the largest pivot
   };
+  double largestPivot_ = 1;
   std::vector<Index> place_;  // of a particle in the factor's order
   std::vector<Diagonal> diagonal_;
   std::vector<std::size_t> begin_;  // of a block column's blocks below the diagonal

@@ -108,6 +108,23 @@ TEST(PackedFactor, solvesToSinglePrecision) {
   }
 }
 
+TEST(PackedFactor, anySizeOfMatrixIsSolvedAndNaNIsSeen) {
+  for (const double size : {1e-60, 1e60}) {
+    Eigen::SparseMatrix<double> matrix(3, 3);
+    for (int i = 0; i < 3; ++i) matrix.insert(i, i) = (1 + i) * size;
+    matrix.insert(1, 0) = matrix.insert(2, 0) = matrix.insert(2, 1) = 0.5 * size;
+    const BlockFactor factor(matrix);
+    PackedFactor packed(factor);
+    std::vector<Vec3> b{{1, 2, 3}}, x(1);
+    packed.solve(b, x);
+    const Vec3 exact = factor.solve(b[0]);
+    EXPECT_LT((x[0] - exact).norm(), 1e-5 * exact.norm());
+    b[0].y() = std::nan("");
+    packed.solve(b, x);
+    EXPECT_FALSE(x[0].allFinite());
+  }
+}
+
 TEST(PackedFactor, aMatrixWithoutWholeBlocksIsRefused) {
   Eigen::SparseMatrix<double> matrix(6, 6);
   for (int i = 0; i < 6; ++i) matrix.insert(i, i) = 2;
