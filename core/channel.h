@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Values from one thread to another without locks, waiting or allocation.
 //
-// TripleBuffer hands over the newest value and forgets older ones; SpscRing hands over every value
-// in order as long as there is room. Each has exactly one writing and one reading thread; no call
-// ever waits for the other side (they are wait-free).
+// TripleBuffer hands over the newest value and forgets older ones. It has exactly one writing and
+// one reading thread; no call ever waits for the other side (it is wait-free).
 #pragma once
 
 #include <array>
 #include <atomic>
-#include <bit>
-#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -54,37 +51,6 @@ class TripleBuffer {
   alignas(64) std::atomic<std::uint8_t> shared_{2};
   alignas(64) std::uint8_t writing_ = 0;
   alignas(64) std::uint8_t reading_ = 1;
-};
-
-template <PlainMessage T, std::size_t N>
-requires(std::has_single_bit(N)) class SpscRing {
- public:
-  SpscRing() = default;
-  SpscRing(const SpscRing&) = delete;
-  SpscRing& operator=(const SpscRing&) = delete;
-
-  // Writer: false when the ring is full; the value is then dropped.
-  [[nodiscard]] bool push(const T& value) noexcept {
-    const std::uint64_t tail = tail_.load(std::memory_order_relaxed);
-    if (tail - head_.load(std::memory_order_acquire) == N) return false;
-    items_[tail % N] = value;
-    tail_.store(tail + 1, std::memory_order_release);
-    return true;
-  }
-
-  // Reader: false when the ring is empty.
-  [[nodiscard]] bool pop(T& value) noexcept {
-    const std::uint64_t head = head_.load(std::memory_order_relaxed);
-    if (head == tail_.load(std::memory_order_acquire)) return false;
-    value = items_[head % N];
-    head_.store(head + 1, std::memory_order_release);
-    return true;
-  }
-
- private:
-  std::array<T, N> items_{};
-  alignas(64) std::atomic<std::uint64_t> head_{0};
-  alignas(64) std::atomic<std::uint64_t> tail_{0};
 };
 
 }  // namespace stroma

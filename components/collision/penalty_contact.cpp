@@ -58,9 +58,7 @@ void PenaltyContactForceField::schedule(Schedule& schedule) {
 // one-sided force before it acts.
 void PenaltyContactForceField::warnOfEstimate() {
   const System* system = scene().systemOf(state());
-  if (!system) return;
-  const AttributeBase* substeps = system->integrator().attribute("substeps");
-  if (!substeps || substeps->number() == 1.0) return;
+  if (!system || !system->integrator().hasSubsteps()) return;
   warning("contact-substeps",
           "contact with an explicit solver needs 'substeps' of 1 and a short 'dt': contacts are "
           "found once a step, and the estimate of stability does not see them before they press",

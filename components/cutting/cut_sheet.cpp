@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "components/cutting/exact_predicates.h"
+#include "core/triangle.h"
 
 namespace stroma {
 namespace {
@@ -16,29 +17,6 @@ constexpr double rowAdvance = 0.5, columnWidth = 0.75, leastMotion = 0.05;  // o
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 bool hasArea(const RestTriangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]).squaredNorm() > 0; }
-
-// Squared distance of a point to a triangle (Ericson 2005, closest point by Voronoi regions).
-double squaredDistance(const Vec3& x, const RestTriangle& t) {
-  const Vec3 ab = t[1] - t[0], ac = t[2] - t[0], ax = x - t[0];
-  const double d1 = ab.dot(ax), d2 = ac.dot(ax);
-  if (d1 <= 0 && d2 <= 0) return ax.squaredNorm();
-  const Vec3 bx = x - t[1];
-  const double d3 = ab.dot(bx), d4 = ac.dot(bx);
-  if (d3 >= 0 && d4 <= d3) return bx.squaredNorm();
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return (ax - d1 / (d1 - d3) * ab).squaredNorm();
-  const Vec3 cx = x - t[2];
-  const double d5 = ab.dot(cx), d6 = ac.dot(cx);
-  if (d6 >= 0 && d5 <= d6) return cx.squaredNorm();
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return (ax - d2 / (d2 - d6) * ac).squaredNorm();
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 >= d3 && d5 >= d6)
-    return (bx - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (t[2] - t[1])).squaredNorm();
-  const Vec3 n = ab.cross(ac);
-  const double along = n.dot(ax);
-  return along * along / n.squaredNorm();
-}
 
 }  // namespace
 
@@ -202,7 +180,7 @@ SheetWindow::Nearest SheetWindow::nearest(const Vec3& x, double reach, std::size
     if (((x - boxes[k].low).array() < -reach).any() || ((x - boxes[k].high).array() > reach).any())
       continue;
     const RestTriangle& t = triangles[k];
-    const double d = squaredDistance(x, t);
+    const double d = nearestOnTriangle({t[0], t[1], t[2]}, x).distance2;
     if (d > least) continue;
     least = d;
     const double above = (t[1] - t[0]).cross(t[2] - t[0]).normalized().dot(x - t[0]);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <ranges>
 
+#include "core/rigid_motion.h"
 #include "core/scene.h"
 #include "core/traverse.h"
 
@@ -11,13 +12,6 @@ namespace stroma {
 namespace {
 
 constexpr double defaultRate = 1000;  // Hz, in real time, where the scene says nothing
-
-// Rotation per second that leads from one orientation to the other in time dt.
-Vec3 turning(const Quat& from, const Quat& to, double dt) {
-  const Eigen::AngleAxisd turn(to * from.conjugate());
-  const double angle = turn.angle() > EIGEN_PI ? turn.angle() - 2 * EIGEN_PI : turn.angle();
-  return turn.axis() * (angle / dt);
-}
 
 // Values that own nothing, as they lie in memory, for a checkpoint of the same build.
 template <class T>
@@ -173,7 +167,7 @@ void HapticController::moveTool(const StepContext& step) {
     tool->moveTo(now->tool, Vec3::Zero(), Vec3::Zero(), active);
   } else {
     tool->moveTo(now->tool, (now->tool.position - from.position) / step.dt,
-                 turning(from.orientation, now->tool.orientation, step.dt), active);
+                 rotationVector(from.orientation, now->tool.orientation) / step.dt, active);
   }
   recordFrame(*now);
 }

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/io/mesh_loader.h"
 
-#include <numbers>
-
 #include "components/io/mesh_subdivision.h"
+#include "core/rigid_motion.h"
 #include "core/scene.h"
 
 namespace stroma {
 
 void MeshLoader::transform(MeshData& mesh) const {
-  const Vec3 angle = *rotation * (std::numbers::pi / 180);
-  const Mat3 turn =
-      (Eigen::AngleAxisd(angle.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(angle.y(), Vec3::UnitY()) *
-       Eigen::AngleAxisd(angle.x(), Vec3::UnitX()))
-          .toRotationMatrix();
+  const Mat3 turn = fromEuler(rotation).toRotationMatrix();
   const Vec3 stretch = *scale * *scale3d;
   for (Vec3& x : mesh.positions) x = turn * stretch.cwiseProduct(x) + *translation;
   for (Vec3& n : mesh.normals) n = (turn * n.cwiseQuotient(stretch)).normalized();

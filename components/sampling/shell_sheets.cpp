@@ -8,6 +8,7 @@
 
 #include "components/sampling/point_grid.h"
 #include "components/sampling/surface_check.h"
+#include "core/triangle.h"
 
 namespace stroma {
 namespace {
@@ -64,17 +65,6 @@ Vec3 nearestOnSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return length > 0 ? Vec3(a + std::clamp((p - a).dot(d) / length, 0.0, 1.0) * d) : a;
 }
 
-Vec3 nearestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 n = (b - a).cross(c - a);
-  const bool inside = n.dot((b - a).cross(p - a)) >= 0 && n.dot((c - b).cross(p - b)) >= 0 &&
-                      n.dot((a - c).cross(p - c)) >= 0;
-  if (inside && n.squaredNorm() > 0) return p - n * (n.dot(p - a) / n.squaredNorm());
-  Vec3 best = nearestOnSegment(p, a, b);
-  for (const Vec3& q : {nearestOnSegment(p, b, c), nearestOnSegment(p, c, a)})
-    if ((q - p).squaredNorm() < (best - p).squaredNorm()) best = q;
-  return best;
-}
-
 // Nearest points of a surface or of its rim: looks at the triangles (rim edges) around the nearest
 // nodes only, which is exact as long as triangles are not much longer than the shell is thick, and
 // close to it otherwise.
@@ -101,11 +91,10 @@ class NearestPoints {
     double bestSquared = (best - p).squaredNorm();
     grid_.forEachWithin(p, reach, [&](Index v, double) {
       for (const Triangle& t : around_[v]) {
-        const Vec3 q = nearestOnTriangle(p, mesh_.positions[t[0]], mesh_.positions[t[1]],
-                                         mesh_.positions[t[2]]);
-        if ((q - p).squaredNorm() < bestSquared) {
-          best = q;
-          bestSquared = (q - p).squaredNorm();
+        const TrianglePoint q = nearestOnTriangle(cornersOf(t, mesh_.positions), p);
+        if (q.distance2 < bestSquared) {
+          best = q.point;
+          bestSquared = q.distance2;
         }
       }
     });

@@ -55,6 +55,7 @@ class EulerExplicitSolver final : public Integrator {
   void restore(StateReader& reader) override;
   void integrate(const StepContext& step) override;
   void systemChanged() override { changed_ = true; }
+  [[nodiscard]] bool hasSubsteps() const override { return substeps != 1; }
 
  private:
   void estimate(double time, double dt, int iterations);

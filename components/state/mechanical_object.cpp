@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/state/mechanical_object.h"
 
-#include <numbers>
+#include "core/rigid_motion.h"
 
 namespace stroma {
 
@@ -15,11 +15,7 @@ void MechanicalObject::bind() {
     error("state-empty", "has no particles: give 'position' or add a topology to the node");
     return;
   }
-  const Vec3 angle = rotation.value() * (std::numbers::pi / 180);
-  const Mat3 r =
-      (Eigen::AngleAxisd(angle.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(angle.y(), Vec3::UnitY()) *
-       Eigen::AngleAxisd(angle.x(), Vec3::UnitX()))
-          .toRotationMatrix();
+  const Mat3 r = fromEuler(rotation).toRotationMatrix();
   const bool moved = translation.isSet() || rotation.isSet() || scale.isSet();
   if (moved) {
     for (Vec3& x : initialX_) x = r * scale->cwiseProduct(x) + *translation;

@@ -5,8 +5,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "components/tools/rigid_motion.h"
 #include "core/diagnostics.h"
+#include "core/rigid_motion.h"
 
 namespace stroma {
 namespace {

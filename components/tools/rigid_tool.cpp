@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/tools/rigid_tool.h"
 
-#include "components/tools/rigid_motion.h"
+#include "core/rigid_motion.h"
 #include "core/schedule.h"
 #include "core/snapshot.h"
 

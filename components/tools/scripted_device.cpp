@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "components/tools/rigid_motion.h"
+#include "core/rigid_motion.h"
 #include "core/scene.h"
 #include "core/snapshot.h"
 

@@ -19,6 +19,9 @@ class Integrator : public Component {
   virtual void systemChanged() {}
   // Whether a step makes one linear solve, which cannot find out which one-sided forces let go.
   [[nodiscard]] virtual bool solvesOnce() const { return false; }
+  // Whether a step is, or may be, made in several sub-steps. What is found once a step, such as
+  // contacts, then stands for all of them.
+  [[nodiscard]] virtual bool hasSubsteps() const { return false; }
   [[nodiscard]] System& system() const { return *system_; }
   void setSystem(System* system) { system_ = system; }
 

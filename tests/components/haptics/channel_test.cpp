@@ -74,35 +74,5 @@ TEST(TripleBuffer, valuesAreWholeAndRiseBetweenThreads) {
   EXPECT_EQ(back, 0u);
 }
 
-TEST(SpscRing, isBoundedAndKeepsTheOrder) {
-  SpscRing<int, 4> ring;
-  int value = 0;
-  EXPECT_FALSE(ring.pop(value));
-  for (int i = 0; i < 4; ++i) EXPECT_TRUE(ring.push(i));
-  EXPECT_FALSE(ring.push(4));
-  for (int i = 0; i < 4; ++i) {
-    ASSERT_TRUE(ring.pop(value));
-    EXPECT_EQ(value, i);
-  }
-  EXPECT_FALSE(ring.pop(value));
-}
-
-TEST(SpscRing, nothingIsLostBetweenThreads) {
-  constexpr std::uint64_t count = 200'000;
-  SpscRing<Message, 64> ring;
-  std::jthread writer([&] {
-    for (std::uint64_t i = 1; i <= count; ++i) {
-      while (!ring.push(Message::of(i))) std::this_thread::yield();
-    }
-  });
-  std::uint64_t wrong = 0;
-  Message value;
-  for (std::uint64_t i = 1; i <= count; ++i) {
-    while (!ring.pop(value)) std::this_thread::yield();
-    wrong += value.whole() && value.numbers[0] == i ? 0 : 1;
-  }
-  EXPECT_EQ(wrong, 0u);
-}
-
 }  // namespace
 }  // namespace stroma

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <thread>
 
-#include "components/tools/rigid_motion.h"
+#include "core/rigid_motion.h"
 #include "tests/components/tools/tool_scene.h"
 
 namespace stroma::test {
