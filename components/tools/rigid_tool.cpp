@@ -61,6 +61,10 @@ void RigidTool::schedule(Schedule& schedule) {
     error(device, "device-unread", "is not read: a controller moves this tool",
           "leave 'device' out here; the controller's own says whose hand it is");
   }
+  if (!driven_ && !device) {
+    warning("tool-still", "nobody moves this tool: it stands at the origin",
+            "give it a 'device', or a HapticController that links to it");
+  }
   if (driven_ || !device) return;
   schedule.add<&RigidTool::readDevice>(Stage::Input, *this, "pose of the device");
   schedule.add<&RigidTool::writeDevice>(Stage::Publish, *this, "force to the device");

@@ -126,7 +126,9 @@ TEST_P(Determinism, resumptionHasTheSameBits) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Determinism,
                          testing::Values(RunCase{"paper/cornea.xml", 1000},
                                          RunCase{"paper/liver.xml", 200},
-                                         RunCase{"cornea/pull.xml", 130}),
+                                         RunCase{"cornea/pull.xml", 130},
+                                         RunCase{"cornea/hand.xml", 140},
+                                         RunCase{"tutorials/tools.xml", 300}),
                          [](const auto& test) {
                            std::string name = test.param.file;
                            std::ranges::replace_if(

@@ -61,16 +61,16 @@ int main(int argc, char** argv) {
     GroupedMesh (*make)(int rings);
   };
   std::vector<Job> jobs = {
-      {"cornea-sheet", "anterior surface, 192 nodes, 350 triangles", "cornea_sheet.obj", 0,
-       [](int) { return stroma::meshes::corneaSheet(); }},
+      {"cornea-sheet", "anterior surface of a cornea, 192 nodes, 350 triangles", "cornea_sheet.obj",
+       0, [](int) { return stroma::meshes::corneaSheet(); }},
       {"cornea-shell", "closed cornea, 0.58 to 0.64 mm thick", "cornea_shell.obj", shellRings,
        stroma::meshes::corneaShell},
       {"cornea-cap", "closed circular cap, uniformly 0.58 mm thick", "cornea_cap.obj", capRings,
        stroma::meshes::corneaCap},
-      {"liver", "closed, 502 nodes, 1000 triangles", "liver.obj", 0,
+      {"liver", "closed surface of a liver, 502 nodes, 1000 triangles", "liver.obj", 0,
        [](int) { return stroma::meshes::liver(); }},
-      {"stomach", "two openings, 512 nodes, 991 triangles", "stomach.obj", 0,
-       [](int) { return stroma::meshes::stomach(); }}};
+      {"stomach", "surface of a stomach with two openings, 512 nodes, 991 triangles", "stomach.obj",
+       0, [](int) { return stroma::meshes::stomach(); }}};
 
   std::string out;
   for (Job& job : jobs) {
