@@ -143,9 +143,14 @@ NearestTriangle TriangleTree::nearest(const Vec3& p, double reach,
   NearestTriangle best;
   best.at.distance2 = reach * reach;
   if (!impl_->tree.m_root) return best;
+  // a box's distance is rounded otherwise than its triangle's: of triangles at the same distance
+  // the first in order is found in a tree of any shape
+  const double slack = 1e-14 * p.squaredNorm();
   impl_->descend(
       impl_->tree.m_root,
-      [&](const btDbvtVolume& box) { return distance2(box, p) <= best.at.distance2; },
+      [&](const btDbvtVolume& box) {
+        return distance2(box, p) <= (1 + 1e-12) * best.at.distance2 + slack;
+      },
       [&](const btDbvtVolume& box) { return distance2(box, p); },
       [&](Index t) {
         const TrianglePoint at =
