@@ -20,6 +20,8 @@ class Schedule;
 class StateReader;
 class StateWriter;
 struct StepContext;
+struct TopologyChange;
+struct TopologyCheck;
 
 // Counts how often a limiter acted (an iteration cap, a force clamp, ...). Limiters that acted are
 // named in the run's summary: nothing is limited silently.
@@ -55,6 +57,15 @@ class Component : public AttributeOwner {
   virtual void schedule(Schedule&) {}
   // A run-time attribute has a new value.
   virtual void attributeChanged(const AttributeBase&) {}
+  // A body has been cut: what this keeps of its nodes, triangles and links follows, at a cost
+  // proportional to the change. Called in this order: topologies, then (its states have their new
+  // nodes) force fields, mappings, everything else; within each what a component links to first.
+  virtual void topologyChanged(const TopologyChange&) {}
+  // All bodies are whole again: drops what topologyChanged() has made. In the same order, before
+  // reset() and restore(), only if something had been cut.
+  virtual void topologyRestored() {}
+  // Adds what is wrong with what this keeps of a body that has been cut. May be as slow as need be.
+  virtual void checkTopology(TopologyCheck&) const {}
   // State beyond the particles' positions and velocities, for exact resumption.
   virtual void save(StateWriter&) const {}
   virtual void restore(StateReader&) {}

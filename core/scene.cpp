@@ -6,8 +6,11 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <stdexcept>
 
 #include "core/interfaces/integrator.h"
+#include "core/interfaces/mesh.h"
+#include "core/interfaces/topology_modifier.h"
 #include "core/path.h"
 #include "core/scene_reader.h"
 #include "core/scene_text.h"
@@ -34,6 +37,13 @@ std::uint64_t hashElement(const SceneElement& element, std::uint64_t hash) {
   for (const SceneElement& child : element.children) hash = hashElement(child, hash);
   add("/");  // the end of the element: the same children elsewhere are another scene
   return hash;
+}
+
+// Topologies follow a cut first, then who computes with links, then who moves the new nodes.
+int followRank(const Component& component) {
+  if (dynamic_cast<const Mesh*>(&component)) return 0;
+  if (dynamic_cast<const ForceField*>(&component)) return 1;
+  return dynamic_cast<const Mapping*>(&component) ? 2 : 3;
 }
 
 // A library's exception in a component's hook becomes an error at its element.
@@ -138,6 +148,8 @@ bool Scene::initialise() {
   if (diagnostics_.errorCount() > 0) return false;
   compile();
   if (diagnostics_.errorCount() > 0) return false;
+  followers_ = order;
+  std::ranges::stable_sort(followers_, {}, [](Component* c) { return followRank(*c); });
   running_ = true;
   for (Component* component : order) guarded(*component, [&] { component->start(); });
   for (const auto& system : systems_) system->updateMapped();
@@ -231,9 +243,34 @@ void Scene::stop() {
   forEachComponent(*root_, [](Component& c) { c.stop(); });
 }
 
+void Scene::changeTopology(const TopologyChange& change) {
+  topologyChanged_ = true;
+  if (!change.edit.nodes.empty()) {
+    std::vector<Vec3> rest;
+    for (const NewSurfaceNode& node : change.edit.nodes) rest.push_back(node.rest);
+    const bool grown = std::ranges::any_of(
+        systems_, [&](const auto& system) { return system->grow(change.nodes, rest); });
+    if (!grown) throw std::logic_error("a surface that is cut must be a mapped state");
+  }
+  for (Component* component : followers_) component->topologyChanged(change);
+}
+
+void Scene::checkTopology(TopologyCheck& check) const {
+  for (const Component* component : followers_) component->checkTopology(check);
+}
+
+// The bodies whole again; positions and what depends on them are for the caller.
+void Scene::restoreTopology() {
+  if (!topologyChanged_) return;
+  topologyChanged_ = false;
+  for (const auto& system : systems_) system->dropAppended();
+  for (Component* component : followers_) component->topologyRestored();
+}
+
 void Scene::reset() {
   step_ = 0;
   divergence_.reset();
+  restoreTopology();
   for (const auto& system : systems_) system->reset();
   for (FiniteGuard& guard : guards_) guard.accept();
   forEachComponent(*root_, [](Component& c) {
@@ -273,6 +310,11 @@ bool Scene::restore(const Snapshot& snapshot) {
   }
   step_ = snapshot.step;
   divergence_.reset();
+  restoreTopology();
+  for (TopologyModifier* modifier : collect<TopologyModifier>(*root_)) {
+    StateReader reader(snapshot.chunks, modifier->path());
+    modifier->replay(reader);
+  }
   for (const auto& system : systems_) {
     const StateReader reader(snapshot.chunks, system->integrator().path());
     const bool read = reader.read("system.x", system->x()) &&

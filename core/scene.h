@@ -19,6 +19,7 @@
 #include "core/schedule.h"
 #include "core/snapshot.h"
 #include "core/system.h"
+#include "core/topology_change.h"
 
 namespace stroma {
 
@@ -58,6 +59,12 @@ class Scene {
   void stop();
   // Back to the start of the scene.
   void reset();
+
+  // A topology modifier has divided a body: its surface's state grows, and every component follows
+  // (Component::topologyChanged).
+  void changeTopology(const TopologyChange& change);
+  // What components find wrong with a body that has been cut. Slow.
+  void checkTopology(TopologyCheck& check) const;
 
   [[nodiscard]] Snapshot save() const;
   // False when the snapshot does not fit this scene; the state is then unchanged.
@@ -102,6 +109,7 @@ class Scene {
   // Components such that everything a component links to comes before it; cycles are reported.
   [[nodiscard]] std::vector<Component*> dependencyOrder();
   void compile();
+  void restoreTopology();
 
   SceneOptions options_;
   std::filesystem::path file_;
@@ -109,6 +117,7 @@ class Scene {
   ModuleIndex modules_;
   Diagnostics diagnostics_;
   std::unique_ptr<Node> root_;
+  std::vector<Component*> followers_;  // in the order in which they follow a cut
   std::vector<std::unique_ptr<System>> systems_;
   std::vector<FiniteGuard> guards_;
   Schedule schedule_;
@@ -118,6 +127,7 @@ class Scene {
   std::uint64_t contentHash_ = 0;
   std::optional<Divergence> divergence_;
   bool running_ = false;
+  bool topologyChanged_ = false;  // since the start
 };
 
 }  // namespace stroma

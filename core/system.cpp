@@ -12,6 +12,8 @@ namespace stroma {
 namespace {
 
 constexpr std::size_t none = static_cast<std::size_t>(-1);
+// Vector units may read past the last particle's xyz.
+constexpr std::size_t spare = 2;
 
 // Projector onto the directions that both leave free.
 Mat3 intersection(const Mat3& a, const Mat3& b) {
@@ -41,7 +43,7 @@ void System::gather(Node& top) {
     for (const auto& component : node.components()) {
       Component* c = component.get();
       if (auto* state = dynamic_cast<MechanicalState*>(c)) {
-        slots_.push_back({state, 0, false, Vec3::Zero(), {}, {}, {}});
+        slots_.emplace_back().state = state;
       }
       if (auto* mapping = dynamic_cast<Mapping*>(c)) mappings.push_back(mapping);
       if (auto* force = dynamic_cast<ForceField*>(c)) forceFields.push_back(force);
@@ -110,35 +112,23 @@ void System::orderMappings(std::vector<Mapping*> mappings) {
 }
 
 void System::layOut() {
-  Index mappedSize = 0;
   for (Slot& slot : slots_) {
-    if (slot.mapped) {
-      mappedSize += slot.state->size();
-    } else {
-      slot.offset = size_;
-      size_ += slot.state->size();
-    }
+    if (slot.mapped) continue;
+    slot.offset = size_;
+    size_ += slot.state->size();
   }
-  // a little to spare: vector units may read past the last particle's xyz
-  const auto n = static_cast<std::size_t>(size_), m = static_cast<std::size_t>(mappedSize);
-  storage_.assign(3 * n + 2, Vec3::Zero());
-  mappedStorage_.assign(3 * m + 2, Vec3::Zero());
+  const auto n = static_cast<std::size_t>(size_);
+  storage_.assign(3 * n + spare, Vec3::Zero());
   x_ = Vec3Span(storage_).subspan(0, n);
   v_ = Vec3Span(storage_).subspan(n, n);
   f_ = Vec3Span(storage_).subspan(2 * n, n);
   rest_.resize(n);
   mass_.assign(n, 0.0);
 
-  std::size_t mappedAt = 0;
   for (Slot& slot : slots_) {
     const std::size_t count = slot.count();
     if (slot.mapped) {
-      const Vec3Span all = mappedStorage_;
-      slot.state->place(all.subspan(mappedAt, count), all.subspan(m + mappedAt, count),
-                        all.subspan(2 * m + mappedAt, count));
-      mappedAt += count;
-      slot.dx.resize(count);
-      slot.df.resize(count);
+      slot.resize();
     } else {
       const auto at = static_cast<std::size_t>(slot.offset);
       slot.state->place(x_.subspan(at, count), v_.subspan(at, count), f_.subspan(at, count));
@@ -185,6 +175,28 @@ void System::layOut() {
 
 void System::scheduleMappings(Schedule& schedule) const {
   for (const MappingEntry& entry : mappings_) entry.mapping->schedule(schedule);
+}
+
+void System::Slot::resize() {
+  for (auto* values : {&x, &v, &f, &dx, &df}) values->resize(count() + spare, Vec3::Zero());
+  const auto span = [&](std::vector<Vec3>& values) { return Vec3Span(values).first(count()); };
+  state->place(span(x), span(v), span(f));
+}
+
+bool System::grow(MechanicalState& state, ConstVec3Span rest) {
+  const std::size_t slot = slotOf(state);
+  if (slot == none || !slots_[slot].mapped) return false;
+  state.append(rest);
+  slots_[slot].resize();
+  return true;
+}
+
+void System::dropAppended() {
+  for (Slot& slot : slots_) {
+    if (!slot.mapped) continue;
+    slot.state->dropAppended();
+    slot.resize();
+  }
 }
 
 void System::reset() {
@@ -307,20 +319,21 @@ void System::addTangentProduct(ConstVec3Span dx, double stiffness, double dampin
                                Vec3Span df) const {
   for (const MappingEntry& entry : mappings_) {
     if (!entry.mechanical) continue;
-    const Slot& in = slots_[entry.in];
-    entry.mapping->applyJ(part<ConstVec3Span>(in, dx, in.dx), slots_[entry.out].dx);
+    const Slot &in = slots_[entry.in], &out = slots_[entry.out];
+    entry.mapping->applyJ(part<ConstVec3Span>(in, dx, in.scratch(in.dx)), out.scratch(out.dx));
   }
   for (const Slot& slot : slots_) {
     std::ranges::fill(slot.df, Vec3::Zero());
     for (const ForceField* force : slot.forceFields) {
-      force->addTangentProduct(part<ConstVec3Span>(slot, dx, slot.dx), stiffness, damping,
-                               part<Vec3Span>(slot, df, slot.df));
+      force->addTangentProduct(part<ConstVec3Span>(slot, dx, slot.scratch(slot.dx)), stiffness,
+                               damping, part<Vec3Span>(slot, df, slot.scratch(slot.df)));
     }
   }
   for (auto entry = mappings_.rbegin(); entry != mappings_.rend(); ++entry) {
     if (!entry->mechanical) continue;
     const Slot& in = slots_[entry->in];
-    entry->mapping->addTransposed(slots_[entry->out].df, part<Vec3Span>(in, df, in.df));
+    const Slot& out = slots_[entry->out];
+    entry->mapping->addTransposed(out.scratch(out.df), part<Vec3Span>(in, df, in.scratch(in.df)));
   }
 }
 

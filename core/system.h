@@ -63,6 +63,10 @@ class System {
   // Adds the mappings' calls, every input before its outputs.
   void scheduleMappings(Schedule& schedule) const;
 
+  // A mapped state gets more particles at the end (at rest where given); their positions and
+  // velocities are for its mapping to set. False when the state is not a mapped one of this system.
+  bool grow(MechanicalState& state, ConstVec3Span rest);
+  void dropAppended();
   // States, positions and velocities back to the start of the scene.
   void reset();
   // Positions and velocities of mapped states from the current independent ones.
@@ -78,12 +82,19 @@ class System {
 
  private:
   struct Slot {
-    MechanicalState* state;
-    Index offset;  // of an independent state
-    bool mapped;
+    MechanicalState* state = nullptr;
+    Index offset = 0;  // of an independent state
+    bool mapped = false;
     Vec3 gravity = Vec3::Zero();
     std::vector<ForceField*> forceFields;
-    mutable std::vector<Vec3> dx, df;  // scratch of a mapped state
+    // of a mapped state, which may grow: its storage, and scratch
+    std::vector<Vec3> x, v, f;
+    mutable std::vector<Vec3> dx, df;
+    void resize();
+    // The first count() of a vector of a mapped state, nothing of an independent one.
+    [[nodiscard]] Vec3Span scratch(std::vector<Vec3>& values) const {
+      return mapped ? Vec3Span(values).first(count()) : Vec3Span();
+    }
     [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(state->size()); }
   };
   struct MappingEntry {
@@ -110,7 +121,7 @@ class System {
   std::vector<Mass*> masses_;
   std::vector<ProjectiveConstraint*> constraints_;
   Index size_ = 0;
-  std::vector<Vec3> storage_, mappedStorage_;
+  std::vector<Vec3> storage_;
   Vec3Span x_, v_, f_;
   std::vector<Vec3> rest_;
   std::vector<double> mass_, inverseMass_;

@@ -15,9 +15,10 @@ struct StateView {
   [[nodiscard]] Index size() const { return static_cast<Index>(x.size()); }
 };
 
-// Number of particles and their rest positions are fixed in bind(). The storage of x, v and f
+// Number of particles and their rest positions are fixed in bind(); only a mapped state, such as
+// the nodes of a surface that is cut, gets more while the scene runs. The storage of x, v and f
 // belongs to the System of the solver that governs the state (one allocation for all of its
-// states).
+// independent states).
 class MechanicalState : public Component {
  public:
   static constexpr std::string_view role = "MechanicalState";
@@ -35,6 +36,9 @@ class MechanicalState : public Component {
 
   // Puts the state's arrays at the given places (core only: done when the schedule is compiled).
   void place(Vec3Span x, Vec3Span v, Vec3Span f) { x_ = x, v_ = v, f_ = f; }
+  // New particles at the end, and back to the initial ones (core only: through the System).
+  void append(ConstVec3Span rest) { rest_.insert(rest_.end(), rest.begin(), rest.end()); }
+  void dropAppended() { rest_.resize(initialX_.size()); }
 
  protected:
   std::vector<Vec3> rest_, initialX_, initialV_;
