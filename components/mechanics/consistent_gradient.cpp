@@ -5,7 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <iterator>
 #include <stdexcept>
 
 #include "core/parallel.h"
@@ -23,9 +23,9 @@ constexpr double selfWeight = 0.3;
 
 class Projection {
  public:
+  // rows: those that may change.
   Projection(ConstVec3Span X, const Neighbourhoods& n, const TransposedRows& transposed,
-             std::span<const double> volumes, std::span<const Index> rows, const Gradients& g,
-             double shift)
+             std::span<const double> volumes, std::span<const Index> rows, double shift)
       : X_(X),
         n_(n),
         transposed_(transposed),
@@ -36,7 +36,7 @@ class Projection {
         change_(n.neighbours.size()),
         selfChange_(X.size()),
         shift_(shift) {
-    for (const Index i : rows) free_[i] = g.rank[i] == 3;
+    for (const Index i : rows) free_[i] = 1;
     parallelFor(n.particleCount(), [&](Index i) {
       if (free_[i]) prepareRow(i);
     });
@@ -57,12 +57,8 @@ class Projection {
     });
   }
 
-  void addChange(std::vector<Vec3>& gradients) const {
-    parallelFor(n_.particleCount(), [&](Index i) {
-      if (!free_[i]) return;
-      for (Index s = n_.rows[i].begin; s < n_.rows[i].begin + n_.rows[i].size; ++s)
-        gradients[s] += change_[s];
-    });
+  [[nodiscard]] std::span<const Vec3> changeOf(Index i) const {
+    return {change_.data() + n_.rows[i].begin, static_cast<std::size_t>(n_.rows[i].size)};
   }
 
   [[nodiscard]] double precondition(Index a) const {
@@ -161,16 +157,12 @@ SparseMatrix Projection::assemble(double shift) const {
 }
 
 // b_a - sum_i V_i D_a(i) with the gradients as they are.
-std::vector<Vec3> residualOf(const Neighbourhoods& n, const TransposedRows& transposed,
-                             std::span<const double> V, ConstVec3Span boundary,
-                             const Gradients& g) {
-  std::vector<Vec3> r(boundary.begin(), boundary.end());
-  parallelFor(n.particleCount(), [&](Index a) {
-    for (Index s = n.rows[a].begin; s < n.rows[a].begin + n.rows[a].size; ++s)
-      r[a] += V[a] * g.values[s];  // the row's own entry is minus the sum of the others
-    for (const BackLink& link : transposed.linksOf(a))
-      r[a] -= V[link.particle] * g.values[link.slot];
-  });
+Vec3 residualOf(Index a, const Neighbourhoods& n, const TransposedRows& transposed,
+                std::span<const double> V, ConstVec3Span boundary, const Gradients& g) {
+  Vec3 r = boundary[a];
+  for (Index s = n.rows[a].begin; s < n.rows[a].begin + n.rows[a].size; ++s)
+    r += V[a] * g.values[s];  // the row's own entry is minus the sum of the others
+  for (const BackLink& link : transposed.linksOf(a)) r -= V[link.particle] * g.values[link.slot];
   return r;
 }
 
@@ -229,49 +221,138 @@ std::vector<Vec3> factorise(Projection& S, const std::vector<Vec3>& r) {
 
 double norm(ConstVec3Span a) { return std::sqrt(dot(a, a).sum()); }
 
-ProjectionReport project(ConstVec3Span X, const Neighbourhoods& n, const TransposedRows& transposed,
-                         std::span<const double> V, ConstVec3Span boundary,
-                         std::span<const Index> rows, double shift, Gradients& g,
-                         const ProjectionOptions& options) {
+std::vector<Vec3> solve(Projection& S, std::vector<Vec3> r, const ProjectionOptions& options) {
+  return options.exact ? factorise(S, r) : iterate(S, std::move(r), options.iterations);
+}
+
+void addChange(const Projection& S, Index local, const Row& row, std::vector<Vec3>& gradients) {
+  Index slot = row.begin;
+  for (const Vec3& change : S.changeOf(local)) gradients[slot++] += change;
+}
+
+// A slice or chip whose particles do not fill it asks of its few neighbours what they cannot give:
+// rows that would grow out of all proportion are better left alone.
+bool isModest(const Projection& S, Index local, const Row& row, std::span<const Vec3> gradients) {
+  constexpr double most = 2;
+  double change = 0, size = 0;
+  for (const Vec3& c : S.changeOf(local)) change += c.squaredNorm();
+  for (Index slot = row.begin; slot < row.begin + row.size; ++slot)
+    size += gradients[slot].squaredNorm();
+  return change <= most * most * size;
+}
+
+void requireSameSizes(ConstVec3Span X, const Neighbourhoods& n, const TransposedRows& transposed,
+                      std::span<const double> V, ConstVec3Span boundary, const Gradients& g) {
   if (n.rows.size() != X.size() || transposed.rows.size() != X.size() || V.size() != X.size() ||
       boundary.size() != X.size() || g.values.size() != n.neighbours.size())
     throw std::invalid_argument("the parts of a consistent gradient differ in size");
-  ProjectionReport report;
-  double volume = 0, enclosed = 0;
-  for (std::size_t i = 0; i < X.size(); ++i) volume += V[i], enclosed += boundary[i].dot(X[i]) / 3;
-  report.volumeMismatch = std::abs(volume - enclosed) / std::max(std::abs(enclosed), 1e-300);
+}
 
-  const double size = std::max(norm(boundary), 1e-300);
-  std::vector<Vec3> r = residualOf(n, transposed, V, boundary, g);
-  report.residualBefore = norm(r) / size;
-  Projection S(X, n, transposed, V, rows, g, shift);
-  const std::vector<Vec3> lambda =
-      options.exact ? factorise(S, r) : iterate(S, r, options.iterations);
-  S.apply(lambda, r);
-  S.addChange(g.values);
-  report.residualAfter = norm(residualOf(n, transposed, V, boundary, g)) / size;
-  return report;
+// Some rows and the particles that they bear on, as a body of its own with compact ids.
+struct Patch {
+  std::vector<Index> particles;  // ascending; position: local id
+  std::vector<Index> rows;       // local ids
+  std::vector<Vec3> X;
+  std::vector<double> V;
+  Neighbourhoods n;  // the others' rows are empty
+  TransposedRows transposed;
+};
+
+Patch patchOf(ConstVec3Span X, const Neighbourhoods& n, std::span<const double> V,
+              std::span<const Index> rows) {
+  Patch patch;
+  patch.particles.assign(rows.begin(), rows.end());
+  for (const Index i : rows)
+    patch.particles.insert(patch.particles.end(), n.neighboursOf(i).begin(),
+                           n.neighboursOf(i).end());
+  std::ranges::sort(patch.particles);
+  patch.particles.erase(std::unique(patch.particles.begin(), patch.particles.end()),
+                        patch.particles.end());
+  const auto localOf = [&](Index i) {
+    return static_cast<Index>(std::ranges::lower_bound(patch.particles, i) -
+                              patch.particles.begin());
+  };
+  for (const Index i : patch.particles) {
+    patch.X.push_back(X[i]);
+    patch.V.push_back(V[i]);
+  }
+  for (const Index i : rows) patch.rows.push_back(localOf(i));
+  std::ranges::sort(patch.rows);
+  patch.n.rows.resize(patch.X.size());
+  for (const Index local : patch.rows) {
+    const auto neighbours = n.neighboursOf(patch.particles[local]);
+    const auto size = static_cast<Index>(neighbours.size());
+    patch.n.rows[local] = {static_cast<Index>(patch.n.neighbours.size()), size, size};
+    for (const Index j : neighbours) patch.n.neighbours.push_back(localOf(j));
+  }
+  patch.transposed = transpose(patch.n);
+  return patch;
 }
 
 }  // namespace
 
 ProjectionReport makeConsistent(ConstVec3Span X, const Neighbourhoods& n,
-                                const TransposedRows& transposed, std::span<const double> volumes,
-                                ConstVec3Span boundary, Gradients& gradients,
+                                const TransposedRows& transposed, std::span<const double> V,
+                                ConstVec3Span boundary, Gradients& g,
                                 const ProjectionOptions& options) {
-  std::vector<Index> rows(X.size());
-  std::iota(rows.begin(), rows.end(), 0);
-  return project(X, n, transposed, volumes, boundary, rows, 0, gradients, options);
+  requireSameSizes(X, n, transposed, V, boundary, g);
+  ProjectionReport report;
+  double volume = 0, enclosed = 0;
+  for (std::size_t i = 0; i < X.size(); ++i) volume += V[i], enclosed += boundary[i].dot(X[i]) / 3;
+  report.volumeMismatch = std::abs(volume - enclosed) / std::max(std::abs(enclosed), 1e-300);
+
+  std::vector<Vec3> r(X.size());
+  const auto findResidual = [&] {
+    parallelFor(n.particleCount(),
+                [&](Index a) { r[a] = residualOf(a, n, transposed, V, boundary, g); });
+    return norm(r) / std::max(norm(boundary), 1e-300);
+  };
+  report.residualBefore = findResidual();
+  std::vector<Index> rows;
+  for (Index i = 0; i < n.particleCount(); ++i)
+    if (g.rank[i] == 3) rows.push_back(i);
+  Projection S(X, n, transposed, V, rows, 0);
+  S.apply(solve(S, r, options), r);
+  parallelFor(static_cast<Index>(rows.size()),
+              [&](Index k) { addChange(S, rows[k], n.rows[rows[k]], g.values); });
+  report.residualAfter = findResidual();
+  return report;
 }
 
 ProjectionReport makeConsistentLocally(ConstVec3Span X, const Neighbourhoods& n,
-                                       const TransposedRows& transposed,
-                                       std::span<const double> volumes, ConstVec3Span boundary,
-                                       std::span<const Index> rows, Gradients& gradients,
-                                       const ProjectionOptions& options) {
+                                       const TransposedRows& transposed, std::span<const double> V,
+                                       ConstVec3Span boundary, std::span<const Index> rows,
+                                       Gradients& g, const ProjectionOptions& options) {
+  requireSameSizes(X, n, transposed, V, boundary, g);
+  std::vector<Index> whole;
+  std::ranges::copy_if(rows, std::back_inserter(whole), [&](Index i) { return g.rank[i] == 3; });
+  const Patch patch = patchOf(X, n, V, whole);
+
+  std::vector<Vec3> r(patch.particles.size());
+  double size = 0;  // of the particles' own areas
+  for (const double v : patch.V) size += std::pow(v, 4.0 / 3);
+  const auto findResidual = [&] {
+    parallelFor(static_cast<Index>(r.size()), [&](Index a) {
+      r[a] = residualOf(patch.particles[a], n, transposed, V, boundary, g);
+    });
+    return norm(r) / std::max(std::sqrt(size), 1e-300);
+  };
+  ProjectionReport report;
+  report.residualBefore = findResidual();
   // few free rows cannot meet every constraint: the shift turns them into least squares
-  constexpr double localShift = 1e-3;
-  return project(X, n, transposed, volumes, boundary, rows, localShift, gradients, options);
+  const bool all = rows.size() == X.size();
+  const double shift = all ? 0 : 1e-3;
+  Projection S(patch.X, patch.n, patch.transposed, patch.V, patch.rows, shift);
+  S.apply(solve(S, r, options), r);
+  for (const Index local : patch.rows) {
+    const Row& row = n.rows[patch.particles[local]];
+    if (all || isModest(S, local, row, g.values))
+      addChange(S, local, row, g.values);
+    else
+      ++report.left;
+  }
+  report.residualAfter = findResidual();
+  return report;
 }
 
 }  // namespace stroma

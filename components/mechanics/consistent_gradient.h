@@ -29,8 +29,11 @@ struct ProjectionOptions {
 };
 
 struct ProjectionReport {
-  double residualBefore = 0, residualAfter = 0;  // |b - sum_i V_i D(i)| over |b|, Euclidean
-  double volumeMismatch = 0;  // |sum V - enclosed volume| over the enclosed volume, see above
+  // |b - sum_i V_i D(i)| over |b|, Euclidean; of a part of the rows: at the particles that these
+  // bear on, over the norm of V^(2/3), since b vanishes inside
+  double residualBefore = 0, residualAfter = 0;
+  double volumeMismatch = 0;  // |sum V - enclosed volume| over the enclosed volume; of all rows
+  Index left = 0;  // rows of a part that were left alone: they would have changed too much
 };
 
 // Corrects the gradients of all rows of full rank. boundary: b_a in m^2, one a particle.
@@ -41,7 +44,8 @@ ProjectionReport makeConsistent(ConstVec3Span positions, const Neighbourhoods& n
                                 ConstVec3Span boundary, Gradients& gradients,
                                 const ProjectionOptions& options = {});
 
-// The same over some particles' rows only, as after a cut: the other rows stay as they are.
+// The same over some particles' rows only, as after a cut: the other rows stay as they are, and so
+// do rows that would change by more than twice their size. Costs what the rows hold.
 ProjectionReport makeConsistentLocally(ConstVec3Span positions,
                                        const Neighbourhoods& neighbourhoods,
                                        const TransposedRows& transposed,

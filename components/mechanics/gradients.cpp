@@ -9,7 +9,6 @@
 namespace stroma {
 namespace {
 
-constexpr double tauPlain = 0.03;
 constexpr double tauWiden = 0.003;
 
 // A of the support's metric; only ratios between directions matter here.
@@ -89,7 +88,7 @@ double fitRow(ConstVec3Span X, const Neighbourhoods& n, Index i, Gradients& grad
   // det M bounds the smallest eigenvalue from below and spares most particles the eigenproblem
   const double trace = M.trace();
   double tau = trace > 0 ? 4 * M.determinant() / (trace * trace * trace) : 0;
-  if (tau < tauPlain && trace > 0) tau = symmetricEigen<3>(M).values[0] / trace;
+  if (tau < soundTau && trace > 0) tau = symmetricEigen<3>(M).values[0] / trace;
 
   std::erase_if(gradients.deficient, [i](const auto& d) { return d.particle == i; });
   Mat3 inverse;
@@ -116,7 +115,7 @@ Gradients computeGradients(ConstVec3Span X, Neighbourhoods& n) {
   std::vector<WidenedRow> thin;
   for (Index i = 0; i < n.particleCount(); ++i) {
     const double tau = fitRow(X, n, i, g);
-    if (tau >= tauWiden && tau < tauPlain) thin.push_back(widenedRow(X, n, i));
+    if (tau >= tauWiden && tau < soundTau) thin.push_back(widenedRow(X, n, i));
   }
   // only now, so that no widened row feeds another
   for (const WidenedRow& row : thin) {

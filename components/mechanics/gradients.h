@@ -32,6 +32,9 @@ struct Gradients {
   RankReport report;
 };
 
+// From this tau on a row is fitted as it is.
+inline constexpr double soundTau = 0.03;
+
 // Widening changes rows of the neighbourhoods, so transpose them after this.
 [[nodiscard]] Gradients computeGradients(ConstVec3Span positions, Neighbourhoods& neighbourhoods);
 

@@ -41,6 +41,12 @@ class MlsBonds {
            const TransposedRows& transposed, const Gradients& gradients,
            std::span<const double> volumes, double controlStiffness);
 
+  // Packs some rows again, after their links or gradients have changed: own rows, and the particles
+  // that a changed link ends in or ended in. Costs what these rows hold.
+  void followRows(const Neighbourhoods& neighbourhoods, const TransposedRows& transposed,
+                  const Gradients& gradients, std::span<const Index> own,
+                  std::span<const Index> back);
+
   [[nodiscard]] Index particleCount() const { return static_cast<Index>(volumes_.size()); }
   [[nodiscard]] bool hasControl() const { return !control_.empty(); }
   [[nodiscard]] double volume(Index i) const { return volumes_[i]; }
@@ -61,13 +67,15 @@ class MlsBonds {
   [[nodiscard]] Vec3 centred(Index i) const { return positions_[i] - centroid_; }
 
  private:
-  void packOwn(Index i, const Neighbourhoods& n, const Gradients& gradients, double stiffness);
+  void layOut(const Neighbourhoods& n, const TransposedRows& transposed);
+  void packOwn(Index i, const Neighbourhoods& n, const Gradients& gradients);
   void packControl(Index i);
   void packBack(Index i, const TransposedRows& transposed);
 
   std::vector<Vec3> positions_;
   Vec3 centroid_ = Vec3::Zero();
   std::vector<double> volumes_;
+  double controlStiffness_;
   std::vector<DeficientParticle> deficient_;
   std::vector<Row> ownRows_, backRows_;
   std::vector<Bond> own_, back_;

@@ -41,6 +41,17 @@ class MlsElasticity {
       F[d.particle] = completeGradient(d, F[d.particle]);
   }
 
+  // The same of one particle; costs what its row holds.
+  [[nodiscard]] Mat3 deformationAt(ConstVec3Span x, Index i) const;
+  // Cauchy stress P F^T / J of one particle; a collapsed particle has none.
+  [[nodiscard]] Mat3 stressAt(ConstVec3Span x, Index i) const {
+    return cauchyStress(deformationAt(x, i));
+  }
+  [[nodiscard]] Mat3 cauchyStress(const Mat3& F) const {
+    const double J = F.determinant();
+    return std::abs(J) > 1e-12 ? Mat3(material_.stress(F) * F.transpose() / J) : Mat3(Mat3::Zero());
+  }
+
   [[nodiscard]] double energy(ConstVec3Span x);
 
   // f += forces at positions x.
@@ -277,6 +288,20 @@ void MlsElasticity<Material>::addMotionProduct(double factor, Vec3Span df) {
     const Vec4 force = gatherForce<Control>(i);
     df[i] -= factor * Vec3(force[0], force[1], force[2]);
   });
+}
+
+template <class Material>
+Mat3 MlsElasticity<Material>::deformationAt(ConstVec3Span x, Index i) const {
+  const Vec3 ui = x[i] - bonds_.reference(i);
+  Mat3 F = Mat3::Identity();
+  const Bond* bond = bonds_.own(i);
+  for (const Bond* end = bond + bonds_.ownRow(i).size; bond != end; ++bond) {
+    const Vec3 u = x[bond->particle] - bonds_.reference(bond->particle) - ui;
+    F += u * Vec3(bond->g[0], bond->g[1], bond->g[2]).transpose();
+  }
+  const auto deficient = bonds_.deficient();
+  const auto found = std::ranges::lower_bound(deficient, i, {}, &DeficientParticle::particle);
+  return found != deficient.end() && found->particle == i ? completeGradient(*found, F) : F;
 }
 
 template <class Material>

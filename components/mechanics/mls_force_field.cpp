@@ -11,8 +11,10 @@
 #include "components/material/stable_neo_hookean.h"
 #include "components/mechanics/mls_elasticity.h"
 #include "components/mechanics/second_order.h"
-#include "components/mechanics/surface_quadrature.h"
+#include "core/scene.h"
 #include "core/schedule.h"
+#include "core/traverse.h"
+#include "core/triangle.h"
 
 namespace stroma {
 
@@ -26,6 +28,7 @@ class MLSForceField::Law {
   virtual void addTangent(BlockMatrix& matrix, Index offset, double factor) const = 0;
   virtual void stress(ConstVec3Span x, std::vector<double>& vonMises,
                       std::vector<double>& volumeRatio) = 0;
+  [[nodiscard]] virtual Mat3 stressAt(ConstVec3Span x, Index i) const = 0;
 };
 
 template <class Material>
@@ -53,15 +56,14 @@ class MLSForceField::LawOf final : public Law {
     elasticity_.deformation(x, F_);
     parallelFor(static_cast<Index>(x.size()), [&](Index k) {
       const auto i = static_cast<std::size_t>(k);
-      const double J = F_[i].determinant();
-      // Cauchy stress P F^T / J; a collapsed particle has none
-      const Mat3 sigma = std::abs(J) > 1e-12
-                             ? Mat3(elasticity_.material().stress(F_[i]) * F_[i].transpose() / J)
-                             : Mat3(Mat3::Zero());
+      const Mat3 sigma = elasticity_.cauchyStress(F_[i]);
       const Mat3 deviator = sigma - sigma.trace() / 3 * Mat3::Identity();
       vonMises[i] = std::sqrt(1.5) * deviator.norm();
-      volumeRatio[i] = J;
+      volumeRatio[i] = F_[i].determinant();
     });
+  }
+  [[nodiscard]] Mat3 stressAt(ConstVec3Span x, Index i) const override {
+    return elasticity_.stressAt(x, i);
   }
 
  private:
@@ -132,13 +134,15 @@ bool MLSForceField::findSupports() {
     }
     options.radius /= *spacing;  // ellipsoids measure in spacings
   }
+  // cuts then hardly ever have to move a row
+  if (!collect<TopologyModifier>(scene().root()).empty()) options.spare = 6;
   neighbourhoods_ = findNeighbourhoods(X, options, axes);
   gradients_ = computeGradients(X, neighbourhoods_);
   transposed_ = transpose(neighbourhoods_);
   return true;
 }
 
-void MLSForceField::makeGradientsConsistent() {
+bool MLSForceField::makeGradientsConsistent() {
   closed_ = surface    ? SurfaceView{surface->positions(), surface->triangles()}
             : topology ? topology->enclosingSurface()
                        : SurfaceView{};
@@ -147,43 +151,46 @@ void MLSForceField::makeGradientsConsistent() {
           "=\"" + ValueTraits<GradientScheme>::print(gradient) +
               "\" needs the closed surface around the particles",
           "use a ParticleSampler, or give surface=\"@mesh\"");
-    return;
+    return false;
   }
   plainGradients_ = gradients_;
   // loads on the surface's nodes travel through the same shape functions: tractions are then exact
+  boundaryShape_.reset();
   boundaryShape_ = shapeOf(closed_.positions, closed_.triangles, surfaceSupport);
-  std::vector<Vec3> areas(closed_.positions.size(), Vec3::Zero());
+  areas_.assign(closed_.positions.size(), Vec3::Zero());
   for (const Triangle& t : closed_.triangles) {
-    const auto corner = [&](int k) -> const Vec3& {
-      return closed_.positions[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
-    };
-    const Vec3 area = 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0));
-    for (const Index node : t) areas[static_cast<std::size_t>(node)] += area / 3;
+    const Vec3 area = 0.5 * cornersOf(t, closed_.positions).areaNormal();
+    for (const Index node : t) areas_[static_cast<std::size_t>(node)] += area / 3;
   }
-  warnOfCoarseSurface();
-  std::vector<Vec3> boundary(mechanicalState->rest().size(), Vec3::Zero());
-  boundaryShape_->addTransposed(areas, boundary);
+  const ConstVec3Span X = mechanicalState->rest();
+  boundary_.assign(X.size(), Vec3::Zero());
+  boundaryShape_->shape.addTransposed(areas_, boundary_);
   if (gradient == GradientScheme::secondOrder) {
-    const ConstVec3Span X = mechanicalState->rest();
     refitOneSided(X, neighbourhoods_, gradients_);
     auto weights = quadratureWeights(X, neighbourhoods_, transposed_, gradients_, volumes_);
-    if (weights.empty()) {
-      warning("gradient-weights",
-              "the cloud is too irregular for weights of second order: the particles' volumes are "
-              "used, as with gradient=\"consistent\"");
-    } else {
-      volumes_ = std::move(weights);
-    }
+    irregular_ = weights.empty();
+    if (!irregular_) volumes_ = std::move(weights);
+    refitted_ = gradients_.values;
   }
   ProjectionOptions options;
   options.iterations = projectionIterations;
   options.exact = projectionIterations == 0;
   try {
-    projection_ = makeConsistent(mechanicalState->rest(), neighbourhoods_, transposed_, volumes_,
-                                 boundary, gradients_, options);
+    projection_ =
+        makeConsistent(X, neighbourhoods_, transposed_, volumes_, boundary_, gradients_, options);
   } catch (const std::runtime_error& e) {
     error(gradient, "gradient-projection", std::string("cannot be made consistent: ") + e.what());
-    return;
+    return false;
+  }
+  return true;
+}
+
+void MLSForceField::reportBoundary() {
+  warnOfCoarseSurface();
+  if (irregular_) {
+    warning("gradient-weights",
+            "the cloud is too irregular for weights of second order: the particles' volumes are "
+            "used, as with gradient=\"consistent\"");
   }
   if (projection_->volumeMismatch > 1e-6) {
     warning("gradient-volume", "the particles' volumes differ from the volume of the surface by " +
@@ -194,12 +201,8 @@ void MLSForceField::makeGradientsConsistent() {
 
 void MLSForceField::warnOfCoarseSurface() {
   double area = 0;
-  for (const Triangle& t : closed_.triangles) {
-    const auto corner = [&](int k) -> const Vec3& {
-      return closed_.positions[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
-    };
-    area += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
-  }
+  for (const Triangle& t : closed_.triangles)
+    area += 0.5 * cornersOf(t, closed_.positions).areaNormal().norm();
   // edge of the equilateral triangle of mean area
   const double edge =
       std::sqrt(4 / std::sqrt(3.0) * area / static_cast<double>(closed_.triangles.size()));
@@ -232,12 +235,17 @@ void MLSForceField::buildBonds() {
   law_ = makeLaw();
 }
 
-void MLSForceField::bind() {
-  if (!readVolumes() || !findSupports()) return;
-  if (gradient != GradientScheme::plain) makeGradientsConsistent();
-  if (failed()) return;
-  reportRanks();
+bool MLSForceField::build() {
+  if (!readVolumes() || !findSupports()) return false;
+  if (gradient != GradientScheme::plain && !makeGradientsConsistent()) return false;
   buildBonds();
+  return true;
+}
+
+void MLSForceField::bind() {
+  if (!build()) return;
+  if (gradient != GradientScheme::plain) reportBoundary();
+  reportRanks();
   if (computeVonMises) {
     vonMises.set(std::vector<double>(volumes_.size(), 0.0));
     volumeRatio.set(std::vector<double>(volumes_.size(), 1.0));
@@ -305,9 +313,13 @@ void MLSForceField::addTangent(BlockMatrix& matrix, Index offset, double stiffne
   law_->addTangent(matrix, offset, -stiffness);
 }
 
-std::shared_ptr<const SurfaceShape> MLSForceField::shapeOf(ConstVec3Span points,
-                                                           std::span<const Triangle> triangles,
-                                                           Index supports) const {
+Mat3 MLSForceField::stressAt(const StateView& at, Index particle) const {
+  return law_->stressAt(at.x, particle);
+}
+
+std::shared_ptr<RidingPoints> MLSForceField::shapeOf(ConstVec3Span points,
+                                                     std::span<const Triangle> triangles,
+                                                     Index supports) const {
   if (boundaryShape_ && supports == surfaceSupport &&
       std::ranges::equal(points, closed_.positions) &&
       std::ranges::equal(triangles, closed_.triangles)) {
@@ -315,12 +327,14 @@ std::shared_ptr<const SurfaceShape> MLSForceField::shapeOf(ConstVec3Span points,
   }
   const Gradients& gradients = plainGradients_.values.empty() ? gradients_ : plainGradients_;
   const ConstVec3Span X = mechanicalState->rest();
-  if (triangles.empty()) {
-    return std::make_shared<SurfaceShape>(X, neighbourhoods_, gradients, points, supports);
-  }
+  auto riding = std::make_shared<RidingPoints>();
+  riding->supports = supports;
   // samples half a particle spacing apart integrate the shape functions well
-  return std::make_shared<SurfaceShape>(SurfaceShape::ofSurface(
-      X, neighbourhoods_, gradients, points, triangles, supports, 0.5 * particleSpacing()));
+  riding->shape = triangles.empty()
+                      ? SurfaceShape(X, neighbourhoods_, gradients, points, supports)
+                      : SurfaceShape::ofSurface(X, neighbourhoods_, gradients, points, triangles,
+                                                supports, 0.5 * particleSpacing());
+  return riding;
 }
 
 double MLSForceField::particleSpacing() const {

@@ -3,6 +3,13 @@
 // of a state (Mueller et al. 2004, with the force as the exact gradient of the energy), zero-energy
 // control (Kugelstadt et al. 2021), gradients optionally made consistent with the surface's
 // tractions.
+//
+// When the body is cut, particles keep their places and numbers; links that a cut blocks are
+// replaced by what can be seen (visibility.h), and the rows concerned are fitted again. Consistent
+// gradients are projected anew in two rings around them, with the walls of the incision in the
+// boundary term, where the surface that is cut is the one that encloses the particles; otherwise
+// (an open sheet over a shell of particles) these rows stay plain. Rows that secondOrder had
+// refitted become first-order ones beside a cut; the weights of the energy's sum stay.
 #pragma once
 
 #include <memory>
@@ -10,9 +17,11 @@
 
 #include "components/mechanics/consistent_gradient.h"
 #include "components/mechanics/mls_bonds.h"
-#include "components/mechanics/surface_shape.h"
+#include "components/mechanics/riding_points.h"
 #include "core/interfaces/force_field.h"
 #include "core/interfaces/mesh.h"
+#include "core/interfaces/stress_field.h"
+#include "core/interfaces/topology_modifier.h"
 
 namespace stroma {
 
@@ -60,7 +69,7 @@ struct EnumNames<Kernel> {
        {Kernel::desbrun1996, "desbrun1996"}}};
 };
 
-class MLSForceField final : public ForceField {
+class MLSForceField final : public ForceField, public StressField {
  public:
   static constexpr std::string_view role = "MLSForceField";
 
@@ -178,17 +187,29 @@ class MLSForceField final : public ForceField {
                      Lookup::explicitOnly,
                      {.required = false}};
 
+  Limiter freeChips{this, "freeChips",
+                    "particles with fewer than 8 neighbours on their own side of the cuts"};
+  Limiter plainRows{
+      this, "plainRows",
+      "times that a particle beside a cut kept its plain gradient, which could not be "
+      "made consistent"};
+
   MLSForceField();
   ~MLSForceField() override;
 
   void configure() override;
   void bind() override;
+  void start() override;
+  void topologyChanged(const TopologyChange& change) override;
+  void topologyRestored() override;
+  void checkTopology(TopologyCheck& check) const override;
   void schedule(Schedule& schedule) override;
   void attributeChanged(const AttributeBase& attribute) override;
 
   [[nodiscard]] MechanicalState& state() const override { return *mechanicalState; }
   void addForce(const StateView& at, Vec3Span f) override;
   [[nodiscard]] double potentialEnergy(const StateView& at) const override;
+  [[nodiscard]] Mat3 stressAt(const StateView& at, Index particle) const override;
   void linearize(const StateView& at) override;
   void addTangentProduct(ConstVec3Span dx, double stiffness, double damping,
                          Vec3Span df) const override;
@@ -198,41 +219,88 @@ class MLSForceField final : public ForceField {
 
   // The discretisation, for the volume constraint and mappings of the same particles.
   [[nodiscard]] const MlsBonds& bonds() const { return *bonds_; }
-  // Shape functions of surface points, the ones that the consistent gradient's boundary term uses.
-  // Without triangles the points stand alone.
-  [[nodiscard]] std::shared_ptr<const SurfaceShape> shapeOf(ConstVec3Span points,
-                                                            std::span<const Triangle> triangles,
-                                                            Index supports) const;
+  [[nodiscard]] const Neighbourhoods& neighbourhoods() const { return neighbourhoods_; }
+  // Shape functions of surface points. For the surface of the consistent gradient's boundary term
+  // they are the ones used there, shared. Without triangles the points stand alone.
+  [[nodiscard]] std::shared_ptr<RidingPoints> shapeOf(ConstVec3Span points,
+                                                      std::span<const Triangle> triangles,
+                                                      Index supports) const;
   [[nodiscard]] const RankReport& rankReport() const { return gradients_.report; }
   [[nodiscard]] const std::optional<ProjectionReport>& projectionReport() const {
     return projection_;
   }
+  // Of the last cut; none where nothing was projected.
+  [[nodiscard]] const std::optional<ProjectionReport>& cutProjectionReport() const {
+    return cut_->projection;
+  }
+
+  // Who divides these particles, or null; known from start() on.
+  [[nodiscard]] const TopologyModifier* modifier() const { return cut_ ? cut_->modifier : nullptr; }
+  // The particles as the last change has left them. Only with a modifier.
+  [[nodiscard]] CutParticles cutParticles() const;
+  // Lets points follow the change that topologyChanged() has just followed; `cut` as in
+  // concernedPoints(). Does nothing for points that have followed it already.
+  void follow(RidingPoints& points, ConstVec3Span rest, bool cut, const TopologyChange& change);
 
  private:
   class Law;  // the force loops for one material
   template <class Material>
   class LawOf;
 
+  // What is kept to follow cuts.
+  struct Cut {
+    Cut(const TopologyModifier& by, ConstVec3Span X, const Neighbourhoods& n)
+        : modifier(&by), search(X, n), chips(X.size(), 0) {
+      for (const Row& row : n.rows) fewest.push_back(std::min(row.size, fewestLinks));
+    }
+    const TopologyModifier* modifier;
+    VisibilitySearch search;
+    bool followsBoundary = false;     // the surface of the boundary term is the one that is cut
+    std::vector<Triangle> triangles;  // of that surface
+    std::vector<Index> fewest;        // neighbours without which a particle is part of a chip
+    std::vector<char> chips;          // particles with fewer
+    FacetBoxes newFacets{{}};         // of the last change
+    std::vector<Index> relinked;      // rows that the last change has replaced
+    std::uint64_t changes = 0;        // their number so far
+    std::optional<ProjectionReport> projection;  // of the last change
+  };
+
   [[nodiscard]] double particleSpacing() const;
+  [[nodiscard]] bool build();
   [[nodiscard]] bool readVolumes();
   [[nodiscard]] bool findSupports();
-  void makeGradientsConsistent();
+  [[nodiscard]] bool makeGradientsConsistent();
   void warnOfCoarseSurface();
+  void reportBoundary();
   void reportRanks();
   void buildBonds();
   [[nodiscard]] std::unique_ptr<Law> makeLaw() const;
   void publishStress(const StepContext& step);
 
+  [[nodiscard]] Gradients& plainGradients() {
+    return plainGradients_.values.empty() ? gradients_ : plainGradients_;
+  }
+  [[nodiscard]] std::vector<Index> relinkRows(const CutBarrier& barrier);
+  void fitRelinkedRow(Index i, const CutBarrier& barrier);
+  void followBoundary(const TopologyChange& change);
+  [[nodiscard]] std::vector<Index> projectAround(std::span<const Index> rows);
+  void checkRow(Index i, const CutBarrier& barrier, Failures& failures) const;
+
   std::vector<double> volumes_;  // weights of the energy's sum; the cells' unless secondOrder
+  bool irregular_ = false;       // too much so for the weights of secondOrder
   Neighbourhoods neighbourhoods_;
   TransposedRows transposed_;
-  Gradients gradients_;       // the ones forces use
-  Gradients plainGradients_;  // those of the shape functions, when they differ
-  SurfaceView closed_{};      // the surface of the boundary term, and its shape functions
-  std::shared_ptr<const SurfaceShape> boundaryShape_;
+  Gradients gradients_;         // the ones forces use
+  Gradients plainGradients_;    // those of the shape functions, when they differ
+  std::vector<Vec3> refitted_;  // those of secondOrder before they were made consistent
+  SurfaceView closed_{};        // the surface of the boundary term, and its shape functions
+  std::shared_ptr<RidingPoints> boundaryShape_;
+  std::vector<Vec3> areas_;     // vector area of each node of that surface, m^2
+  std::vector<Vec3> boundary_;  // b of the consistent gradient
   std::optional<ProjectionReport> projection_;
   std::unique_ptr<MlsBonds> bonds_;
   std::unique_ptr<Law> law_;
+  std::unique_ptr<Cut> cut_;
 };
 
 }  // namespace stroma

@@ -9,21 +9,53 @@ void MLSMapping::bind() {
           "acts on '" + forceField->state().path() + "', but the input is '" + in->path() + "'");
     return;
   }
+  findShape();
+}
+
+void MLSMapping::findShape() {
   const Index supports = supportCount > 0 ? *supportCount : *forceField->surfaceSupport;
   const auto triangles = surface ? surface->triangles() : std::span<const Triangle>{};
-  shape_ = forceField->shapeOf(out->rest(), triangles, supports);
+  points_ = forceField->shapeOf(out->rest(), triangles, supports);
+}
+
+bool MLSMapping::isCut() const { return &forceField->modifier()->nodes() == out.get(); }
+
+void MLSMapping::start() {
+  if (!forceField->modifier()) return;
+  // nodes that are not cut get no new ones: they need a shape of their own
+  if (!isCut()) points_ = std::make_shared<RidingPoints>(*points_);
+  prepareForCuts(*points_, out->rest(), in->rest());
+}
+
+void MLSMapping::topologyChanged(const TopologyChange& change) {
+  if (!forceField->modifier() || &change.particles != in.get()) return;
+  forceField->follow(*points_, out->rest(), isCut(), change);
+  freeChips.add(static_cast<std::uint64_t>(points_->newChips));
+  points_->shape.applyTo(points_->redone, in->x(), out->x());
+  points_->shape.applyTo(points_->redone, in->v(), out->v());
+}
+
+void MLSMapping::topologyRestored() {
+  if (!forceField->modifier() || points_->change == 0) return;
+  findShape();
+  start();
+}
+
+void MLSMapping::checkTopology(TopologyCheck& check) const {
+  if (!forceField->modifier() || &check.particles != in.get()) return;
+  checkPoints(*points_, out->rest(), forceField->cutParticles(), path() + ": node", check);
 }
 
 void MLSMapping::apply(ConstVec3Span particles, Vec3Span points) const {
-  shape_->apply(particles, points);
+  points_->shape.apply(particles, points);
 }
 
 void MLSMapping::applyJ(ConstVec3Span particles, Vec3Span points) const {
-  shape_->apply(particles, points);
+  points_->shape.apply(particles, points);
 }
 
 void MLSMapping::addTransposed(ConstVec3Span points, Vec3Span particles) const {
-  shape_->addTransposed(points, particles);
+  points_->shape.addTransposed(points, particles);
 }
 
 }  // namespace stroma

@@ -10,7 +10,8 @@ namespace stroma {
 // over the nearest particles of their first-order extrapolations. Linear fields are followed
 // exactly; forces on the nodes go back to the particles by the exact transpose. With the force
 // field's own number of supports these are the shape functions of the consistent gradient's
-// boundary term, so that tractions are exact.
+// boundary term, so that tractions are exact. After a cut each node is carried by particles that it
+// sees (riding_points.h).
 class MLSMapping final : public Mapping {
  public:
   Attribute<int> supportCount{
@@ -32,17 +33,27 @@ class MLSMapping final : public Mapping {
                                  "neighbourhoods.",
                                  Lookup::nearest};
 
+  Limiter freeChips{this, "freeChips",
+                    "nodes with fewer than 8 supports on their own side of the cuts"};
+
   void bind() override;
+  void start() override;
+  void topologyChanged(const TopologyChange& change) override;
+  void topologyRestored() override;
+  void checkTopology(TopologyCheck& check) const override;
   [[nodiscard]] MechanicalState& input() const override { return *in; }
   [[nodiscard]] MechanicalState& output() const override { return *out; }
   void apply(ConstVec3Span particles, Vec3Span points) const override;
   void applyJ(ConstVec3Span particles, Vec3Span points) const override;
   void addTransposed(ConstVec3Span points, Vec3Span particles) const override;
 
-  [[nodiscard]] const SurfaceShape& shape() const { return *shape_; }
+  [[nodiscard]] const SurfaceShape& shape() const { return points_->shape; }
 
  private:
-  std::shared_ptr<const SurfaceShape> shape_;
+  void findShape();
+  [[nodiscard]] bool isCut() const;  // whether its nodes are those of the surface that is cut
+
+  std::shared_ptr<RidingPoints> points_;
 };
 
 }  // namespace stroma

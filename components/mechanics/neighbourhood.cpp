@@ -20,19 +20,6 @@ struct Candidate {
   }
 };
 
-// Largest Euclidean length of an offset whose length in i's metric is one.
-double metricExtent(const Neighbourhoods& n, Index i) {
-  switch (n.options.shape) {
-    case SupportShape::box:
-      return std::sqrt(3.0);
-    case SupportShape::ellipsoid:
-      return std::max(n.axes[i].tangential, n.axes[i].across);
-    case SupportShape::ball:
-      break;
-  }
-  return 1;
-}
-
 // The `count` nearest in i's metric: Euclidean candidates, more of them until none can be missing.
 void nearestInMetric(const Neighbourhoods& n, const PointTree& tree, ConstVec3Span X, Index i,
                      std::vector<Index>& ids, std::vector<double>& squared,
@@ -96,6 +83,18 @@ std::uint64_t spreadBits(std::uint64_t v) {
 
 }  // namespace
 
+double metricExtent(const Neighbourhoods& n, Index i) {
+  switch (n.options.shape) {
+    case SupportShape::box:
+      return std::sqrt(3.0);
+    case SupportShape::ellipsoid:
+      return std::max(n.axes[i].tangential, n.axes[i].across);
+    case SupportShape::ball:
+      break;
+  }
+  return 1;
+}
+
 double Neighbourhoods::distance(Index i, const Vec3& offset) const {
   switch (options.shape) {
     case SupportShape::box:
@@ -115,17 +114,27 @@ double Neighbourhoods::distance(Index i, const Vec3& offset) const {
 
 void Neighbourhoods::assignRow(Index i, std::span<const Index> newNeighbours,
                                std::span<const double> newWeights) {
-  Row& row = rows[i];
   const auto size = static_cast<Index>(newNeighbours.size());
-  if (size > row.capacity) {
-    row.begin = static_cast<Index>(neighbours.size());
-    row.capacity = size + options.spare;
-    neighbours.resize(neighbours.size() + row.capacity, -1);
-    weights.resize(neighbours.size(), 0);
-  }
-  row.size = size;
+  Row row = rows[i];
+  resizeRow(row, neighbours, size, options.spare);
+  resizeRow(rows[i], weights, size, options.spare);
   std::copy(newNeighbours.begin(), newNeighbours.end(), neighbours.begin() + row.begin);
   std::copy(newWeights.begin(), newWeights.end(), weights.begin() + row.begin);
+}
+
+void TransposedRows::followRow(const Neighbourhoods& n, Index i, std::span<const Index> before) {
+  constexpr Index spare = 6;
+  const auto placeOf = [&](Index j) {
+    const auto row = linksOf(j);
+    const auto at = std::lower_bound(row.begin(), row.end(), i,
+                                     [](const BackLink& l, Index id) { return l.particle < id; });
+    return static_cast<Index>(at - row.begin());
+  };
+  for (const Index j : before) eraseFromRow(rows[j], links, placeOf(j));
+  for (Index slot = n.rows[i].begin; slot < n.rows[i].begin + n.rows[i].size; ++slot) {
+    const Index j = n.neighbours[slot];
+    insertInRow(rows[j], links, placeOf(j), {i, slot}, spare);
+  }
 }
 
 Neighbourhoods findNeighbourhoods(ConstVec3Span X, const SupportOptions& options,

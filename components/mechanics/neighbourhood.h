@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "components/mechanics/kernel.h"
-#include "core/types.h"
+#include "components/mechanics/row_storage.h"
 
 namespace stroma {
 
@@ -32,10 +32,6 @@ struct SupportOptions {
   double radius = 0;   // m, or in units of the spacings for ellipsoids; used where count is 0
   double reach = 1.2;  // support radius over the distance of the last neighbour; used with count
   Index spare = 0;     // free places kept at the end of every row
-};
-
-struct Row {
-  Index begin = 0, size = 0, capacity = 0;
 };
 
 struct Neighbourhoods {
@@ -61,8 +57,8 @@ struct Neighbourhoods {
 
 // One entry j -> (i, slot): particle i has j as a neighbour, in that slot of i's row.
 struct BackLink {
-  Index particle;
-  Index slot;
+  Index particle = -1;
+  Index slot = -1;
 };
 
 struct TransposedRows {
@@ -72,6 +68,8 @@ struct TransposedRows {
   [[nodiscard]] std::span<const BackLink> linksOf(Index j) const {
     return {links.data() + rows[j].begin, static_cast<std::size_t>(rows[j].size)};
   }
+  // Follows row i of the neighbourhoods, which has been replaced and had these neighbours before.
+  void followRow(const Neighbourhoods& neighbourhoods, Index i, std::span<const Index> before);
 };
 
 // Throws std::invalid_argument on non-finite positions, fewer axes than particles, or options that
@@ -79,6 +77,9 @@ struct TransposedRows {
 [[nodiscard]] Neighbourhoods findNeighbourhoods(ConstVec3Span positions,
                                                 const SupportOptions& options,
                                                 std::span<const EllipsoidAxes> axes = {});
+
+// Largest Euclidean length (m) of an offset whose length in the metric of i's support is one.
+[[nodiscard]] double metricExtent(const Neighbourhoods& neighbourhoods, Index i);
 
 [[nodiscard]] TransposedRows transpose(const Neighbourhoods& neighbourhoods);
 

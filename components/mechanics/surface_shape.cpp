@@ -108,8 +108,11 @@ class Extrapolator {
       arm_[share.carrier] += factor * (share.arm + share.weight * shift);
     }
   }
-  // Writes what was added as one row.
-  void flush(std::vector<ShapeEntry>& entries) {
+  // Writes what was added as one row, and who carries it.
+  void flush(std::vector<ShapeEntry>& entries, std::vector<Index>& carriers) {
+    const auto first = static_cast<std::ptrdiff_t>(carriers.size());
+    carriers.insert(carriers.end(), touched_.begin(), touched_.end());
+    std::sort(carriers.begin() + first, carriers.end());
     for (const Index i : touched_) {
       double own = weight_[i];
       for (Index slot = n_.rows[i].begin; slot < n_.rows[i].begin + n_.rows[i].size; ++slot) {
@@ -174,6 +177,14 @@ class Extrapolator {
   std::vector<double> squared_, weights_;
 };
 
+// What was appended to the array since the last row ended becomes a row.
+template <class T>
+void closeRow(std::vector<Row>& rows, const std::vector<T>& entries) {
+  const Index begin = rows.empty() ? 0 : rows.back().begin + rows.back().size;
+  const Index size = static_cast<Index>(entries.size()) - begin;
+  rows.push_back({begin, size, size});
+}
+
 }  // namespace
 
 SurfaceShape::SurfaceShape(ConstVec3Span X, const Neighbourhoods& n, const Gradients& gradients,
@@ -183,8 +194,9 @@ SurfaceShape::SurfaceShape(ConstVec3Span X, const Neighbourhoods& n, const Gradi
   for (const Vec3& s : points) {
     phi.find(s, shares);
     phi.add(shares, 1, Vec3::Zero());
-    phi.flush(entries_);
-    begin_.push_back(static_cast<Index>(entries_.size()));
+    phi.flush(entries_, carriers_);
+    closeRow(rows_, entries_);
+    closeRow(carrierRows_, carriers_);
   }
   buildTranspose(static_cast<Index>(X.size()));
 }
@@ -226,36 +238,120 @@ SurfaceShape SurfaceShape::ofSurface(ConstVec3Span X, const Neighbourhoods& n,
       phi.find(nodes[node], sharesOf(samples.size()));
       phi.add(sharesOf(samples.size()), 1, Vec3::Zero());
     }
-    phi.flush(shape.entries_);
-    shape.begin_.push_back(static_cast<Index>(shape.entries_.size()));
+    phi.flush(shape.entries_, shape.carriers_);
+    closeRow(shape.rows_, shape.entries_);
+    closeRow(shape.carrierRows_, shape.carriers_);
   }
   shape.buildTranspose(static_cast<Index>(X.size()));
   return shape;
 }
 
+PointRow SurfaceShape::rowOf(const Vec3& point, std::span<const Carrier> carriers, ConstVec3Span X,
+                             const Neighbourhoods& n, const Gradients& gradients) {
+  std::vector<double> squared, weights(carriers.size());
+  for (const Carrier& c : carriers) squared.push_back(c.squared);
+  shepardWeights(squared, n.options.kernel, weights);
+  PointRow row;
+  std::vector<ShapeEntry> parts;
+  for (std::size_t k = 0; k < carriers.size(); ++k) {
+    const Index i = carriers[k].particle;
+    const Vec3 arm = weights[k] * (point - X[i]);
+    double own = weights[k];
+    for (Index slot = n.rows[i].begin; slot < n.rows[i].begin + n.rows[i].size; ++slot) {
+      const double part = gradients.values[slot].dot(arm);
+      parts.push_back({n.neighbours[slot], part});
+      own -= part;
+    }
+    parts.push_back({i, own});
+    row.carriers.push_back(i);
+  }
+  std::ranges::stable_sort(parts, {}, &ShapeEntry::particle);
+  for (const ShapeEntry& e : parts) {
+    if (row.entries.empty() || row.entries.back().particle != e.particle)
+      row.entries.push_back(e);
+    else
+      row.entries.back().weight += e.weight;
+  }
+  std::ranges::sort(row.carriers);
+  return row;
+}
+
+void SurfaceShape::replaceRow(Index s, const PointRow& row) {
+  constexpr Index spare = 16;
+  if (s == pointCount()) {
+    rows_.emplace_back();
+    carrierRows_.emplace_back();
+  }
+  followRow(s, shapeOf(s), row.entries);
+  assignRow(rows_[s], entries_, row.entries, spare);
+  assignRow(carrierRows_[s], carriers_, row.carriers, Index{0});
+}
+
+void SurfaceShape::reserveForCuts() {
+  reserveMore(rows_);
+  reserveMore(carrierRows_);
+  reserveMore(entries_);
+  reserveMore(transposed_);
+  reserveMore(carriers_);
+}
+
+// Both rows ascend: entries of both change their weight, of one only go or come.
+void SurfaceShape::followRow(Index s, std::span<const ShapeEntry> before,
+                             std::span<const ShapeEntry> now) {
+  constexpr Index spare = 16;
+  const auto placeOf = [&](Index a) {
+    const auto row = pointsOn(a);
+    return static_cast<Index>(std::ranges::lower_bound(row, s, {}, &PointEntry::point) -
+                              row.begin());
+  };
+  auto old = before.begin();
+  auto next = now.begin();
+  while (old != before.end() || next != now.end()) {
+    const bool goes = next == now.end() || (old != before.end() && old->particle < next->particle);
+    const Index a = goes ? old->particle : next->particle;
+    const bool had = old != before.end() && old->particle == a;
+    Row& row = transposedRows_[a];
+    const Index place = placeOf(a);
+    if (goes)
+      eraseFromRow(row, transposed_, place);
+    else if (had)
+      transposed_[row.begin + place].weight = next->weight;
+    else
+      insertInRow(row, transposed_, place, {s, next->weight}, spare);
+    old += had;
+    next += !goes;
+  }
+}
+
 void SurfaceShape::buildTranspose(Index particles) {
-  transposedBegin_.assign(static_cast<std::size_t>(particles) + 1, 0);
-  for (const ShapeEntry& e : entries_) ++transposedBegin_[e.particle + 1];
-  for (Index a = 0; a < particles; ++a) transposedBegin_[a + 1] += transposedBegin_[a];
+  transposedRows_.assign(static_cast<std::size_t>(particles), {});
+  for (const ShapeEntry& e : entries_) ++transposedRows_[e.particle].capacity;
+  Index begin = 0;
+  for (Row& row : transposedRows_) {
+    row.begin = begin;
+    begin += row.capacity;
+  }
   transposed_.resize(entries_.size());
-  std::vector<Index> at(transposedBegin_.begin(), transposedBegin_.end() - 1);
   for (Index s = 0; s < pointCount(); ++s)
-    for (const ShapeEntry& e : shapeOf(s)) transposed_[at[e.particle]++] = {s, e.weight};
+    for (const ShapeEntry& e : shapeOf(s)) {
+      Row& row = transposedRows_[e.particle];
+      transposed_[row.begin + row.size++] = {s, e.weight};
+    }
 }
 
 void SurfaceShape::apply(ConstVec3Span particles, Vec3Span points) const {
-  parallelFor(pointCount(), [&](Index s) {
-    Vec3 sum = Vec3::Zero();
-    for (const ShapeEntry& e : shapeOf(s)) sum += e.weight * particles[e.particle];
-    points[s] = sum;
-  });
+  parallelFor(pointCount(), [&](Index s) { points[s] = valueAt(s, particles); });
+}
+
+void SurfaceShape::applyTo(std::span<const Index> some, ConstVec3Span particles,
+                           Vec3Span points) const {
+  for (const Index s : some) points[s] = valueAt(s, particles);
 }
 
 void SurfaceShape::addTransposed(ConstVec3Span points, Vec3Span particles) const {
   parallelFor(particleCount(), [&](Index a) {
     Vec3 sum = Vec3::Zero();
-    for (Index k = transposedBegin_[a]; k < transposedBegin_[a + 1]; ++k)
-      sum += transposed_[k].weight * points[transposed_[k].particle];
+    for (const PointEntry& e : pointsOn(a)) sum += e.weight * points[e.point];
     particles[a] += sum;
   });
 }

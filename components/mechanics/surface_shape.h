@@ -16,6 +16,23 @@ struct ShapeEntry {
   double weight;
 };
 
+struct PointEntry {
+  Index point;
+  double weight;
+};
+
+// A particle that carries a point, by its squared distance in the supports' metric.
+struct Carrier {
+  Index particle;
+  double squared;
+};
+
+// Shape functions of one point, by ascending particle.
+struct PointRow {
+  std::vector<ShapeEntry> entries;
+  std::vector<Index> carriers;
+};
+
 class SurfaceShape {
  public:
   SurfaceShape() = default;
@@ -34,25 +51,52 @@ class SurfaceShape {
                                               std::span<const Triangle> triangles, Index supports,
                                               double maxEdge);
 
-  [[nodiscard]] Index pointCount() const { return static_cast<Index>(begin_.size()) - 1; }
-  [[nodiscard]] Index particleCount() const {
-    return static_cast<Index>(transposedBegin_.size()) - 1;
-  }
+  // What a single point blends of the given carriers, nearest first.
+  [[nodiscard]] static PointRow rowOf(const Vec3& point, std::span<const Carrier> carriers,
+                                      ConstVec3Span particles, const Neighbourhoods& neighbourhoods,
+                                      const Gradients& gradients);
+  // Gives point s, or a new one, s = pointCount(), this row. Costs what the rows hold.
+  void replaceRow(Index s, const PointRow& row);
+  // Room in the arrays, so that a cut hardly ever has to move them.
+  void reserveForCuts();
+
+  [[nodiscard]] Index pointCount() const { return static_cast<Index>(rows_.size()); }
+  [[nodiscard]] Index particleCount() const { return static_cast<Index>(transposedRows_.size()); }
   // phi_a(s), by ascending particle.
   [[nodiscard]] std::span<const ShapeEntry> shapeOf(Index s) const {
-    return {entries_.data() + begin_[s], static_cast<std::size_t>(begin_[s + 1] - begin_[s])};
+    return {entries_.data() + rows_[s].begin, static_cast<std::size_t>(rows_[s].size)};
+  }
+  // phi_a(s) by ascending point.
+  [[nodiscard]] std::span<const PointEntry> pointsOn(Index a) const {
+    return {transposed_.data() + transposedRows_[a].begin,
+            static_cast<std::size_t>(transposedRows_[a].size)};
+  }
+  // The particles whose extrapolations a point blends, ascending.
+  [[nodiscard]] std::span<const Index> carriersOf(Index s) const {
+    return {carriers_.data() + carrierRows_[s].begin,
+            static_cast<std::size_t>(carrierRows_[s].size)};
   }
 
   // points = sum_a phi_a particles_a: positions, displacements or velocities.
   void apply(ConstVec3Span particles, Vec3Span points) const;
+  // The same for some points.
+  void applyTo(std::span<const Index> some, ConstVec3Span particles, Vec3Span points) const;
   // particles_a += sum_s phi_a(s) points_s: forces.
   void addTransposed(ConstVec3Span points, Vec3Span particles) const;
 
  private:
   void buildTranspose(Index particles);
+  void followRow(Index s, std::span<const ShapeEntry> before, std::span<const ShapeEntry> now);
+  [[nodiscard]] Vec3 valueAt(Index s, ConstVec3Span particles) const {
+    Vec3 sum = Vec3::Zero();
+    for (const ShapeEntry& e : shapeOf(s)) sum += e.weight * particles[e.particle];
+    return sum;
+  }
 
-  std::vector<Index> begin_{0}, transposedBegin_{0};
-  std::vector<ShapeEntry> entries_, transposed_;  // transposed entries name points
+  std::vector<Row> rows_, transposedRows_, carrierRows_;
+  std::vector<ShapeEntry> entries_;
+  std::vector<PointEntry> transposed_;
+  std::vector<Index> carriers_;
 };
 
 }  // namespace stroma

@@ -536,6 +536,23 @@ TEST(ConsistentGradient, localProjectionRestoresPartOfTheRows) {
   }
 }
 
+TEST(ConsistentGradient, localProjectionOfAllRowsIsTheGlobalOne) {
+  BodyOptions options;
+  options.gradient = GradientKind::plain;
+  Body body(boxCloud({6, 6, 6}, 0.4, 5), options);
+  const auto& X = body.cloud.positions;
+  std::vector<Vec3> areas, boundary(X.size(), Vec3::Zero());
+  for (const SurfaceSample& s : body.samples) areas.push_back(s.area);
+  body.shape.addTransposed(areas, boundary);
+  std::vector<Index> rows;
+  for (Index i = 0; i < body.neighbourhoods.particleCount(); ++i) rows.push_back(i);
+  Gradients local = body.gradients, global = body.gradients;
+  makeConsistentLocally(X, body.neighbourhoods, body.transposed, body.cloud.volumes, boundary, rows,
+                        local);
+  makeConsistent(X, body.neighbourhoods, body.transposed, body.cloud.volumes, boundary, global);
+  EXPECT_EQ(local.values, global.values);
+}
+
 TEST(Stability, powerIterationFindsTheLargestEigenfrequency) {
   const Body body = smallBody();
   const auto& X = body.cloud.positions;
