@@ -19,38 +19,48 @@ void ConstantForceField::configure() {
 
 void ConstantForceField::bind() {
   if (!checkIndices(*this, indices, state())) return;
-  particle_ = indices.isSet() ? indices->indices : allIndices(state().size());
-  if (forces->size() > particle_.size()) {
+  particles_.set(indices.isSet() ? indices->indices : allIndices(state().size()));
+  if (forces->size() > particles_.size()) {
     error(forces, "value-count",
           "has " + std::to_string(forces->size()) + " forces for " +
-              std::to_string(particle_.size()) + " particles");
+              std::to_string(particles_.size()) + " particles");
     return;
   }
   shareOut();
 }
 
 void ConstantForceField::shareOut() {
-  if (forces.isSet() && !forces->empty()) {
-    const std::size_t given = std::min(forces->size(), particle_.size());
-    force_.assign(forces->begin(), forces->begin() + static_cast<std::ptrdiff_t>(given));
-    force_.resize(particle_.size(), forces->back());
-  } else {
-    force_.assign(particle_.size(),
-                  *totalForce / static_cast<double>(std::max<std::size_t>(1, particle_.size())));
+  const std::vector<Vec3>& given = forces;
+  const bool each = forces.isSet() && !given.empty();
+  force_.resize(particles_.size());
+  for (std::size_t k = 0; k < force_.size(); ++k) {
+    const Vec3 whole = each ? given[std::min(particles_.origin(k), given.size() - 1)]
+                            : Vec3(*totalForce / static_cast<double>(particles_.originCount()));
+    force_[k] = particles_.share(k) * whole;
   }
 }
 
+void ConstantForceField::topologyChanged(const TopologyChange& change) {
+  if (&change.nodes != &state()) return;
+  particles_.follow(change, [&](std::size_t k) { force_.push_back(force_[k] *= 0.5); });
+}
+
+void ConstantForceField::topologyRestored() {
+  particles_.restore();
+  shareOut();
+}
+
 void ConstantForceField::addForce(const StateView&, Vec3Span f) {
-  parallelFor(static_cast<Index>(particle_.size()), [&](Index n) {
+  parallelFor(static_cast<Index>(particles_.size()), [&](Index n) {
     const auto k = static_cast<std::size_t>(n);
-    f[static_cast<std::size_t>(particle_[k])] += force_[k];
+    f[particles_.node(k)] += force_[k];
   });
 }
 
 double ConstantForceField::potentialEnergy(const StateView& at) const {
   double energy = 0;
-  for (std::size_t k = 0; k < particle_.size(); ++k) {
-    energy -= force_[k].dot(at.x[static_cast<std::size_t>(particle_[k])]);
+  for (std::size_t k = 0; k < particles_.size(); ++k) {
+    energy -= force_[k].dot(at.x[particles_.node(k)]);
   }
   return energy;
 }

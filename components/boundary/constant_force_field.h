@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "components/boundary/shared_nodes.h"
 #include "core/interfaces/force_field.h"
 
 namespace stroma {
 
-// The same forces at all times, on chosen particles or on all. Energy -sum f.x; no derivative.
+// The same forces at all times, on chosen particles or on all. Energy -sum f.x; no derivative. A
+// cut leaves the load as it is: a node and the copy that is separated from it share the node's
+// force.
 class ConstantForceField final : public ForceField {
  public:
   Attribute<IndexList> indices{this,
@@ -31,6 +34,8 @@ class ConstantForceField final : public ForceField {
   void configure() override;
   void bind() override;
   void attributeChanged(const AttributeBase&) override { shareOut(); }
+  void topologyChanged(const TopologyChange& change) override;
+  void topologyRestored() override;
   [[nodiscard]] MechanicalState& state() const override { return *mechanicalState; }
   void addForce(const StateView& at, Vec3Span f) override;
   [[nodiscard]] double potentialEnergy(const StateView& at) const override;
@@ -40,7 +45,7 @@ class ConstantForceField final : public ForceField {
 
  private:
   void shareOut();
-  std::vector<Index> particle_;
+  SharedNodes particles_;
   std::vector<Vec3> force_;  // on each of them
 };
 

@@ -10,7 +10,8 @@ namespace stroma {
 
 void GripForceField::bind() {
   if (!checkIndices(*this, indices, state())) return;
-  anchor_.assign(indices->indices.size(), Vec3::Zero());
+  nodes_.set(indices->indices);
+  anchor_.assign(nodes_.size(), Vec3::Zero());
   if (keyTimes->empty() || keyTimes->size() != displacements->size()) {
     error(displacements, "value-count",
           "has " + std::to_string(displacements->size()) + " displacements for " +
@@ -28,8 +29,18 @@ void GripForceField::start() {
 }
 
 void GripForceField::close() {
-  for (std::size_t k = 0; k < anchor_.size(); ++k) anchor_[k] = state().x()[node(k)];
+  for (std::size_t k = 0; k < anchor_.size(); ++k) anchor_[k] = state().x()[nodes_.node(k)];
   closed_ = true;
+}
+
+void GripForceField::topologyChanged(const TopologyChange& change) {
+  if (&change.nodes != &state()) return;
+  nodes_.follow(change, [&](std::size_t k) { anchor_.push_back(anchor_[k]); });
+}
+
+void GripForceField::topologyRestored() {
+  nodes_.restore();
+  anchor_.resize(nodes_.size());
 }
 
 void GripForceField::schedule(Schedule& schedule) {
@@ -59,7 +70,8 @@ void GripForceField::addForce(const StateView& at, Vec3Span f) {
   if (!holds(at.time)) return;
   const Vec3 shift = displacementAt(at.time);
   for (std::size_t k = 0; k < anchor_.size(); ++k) {
-    f[node(k)] += stiffness * (anchor_[k] + shift - at.x[node(k)]);
+    const std::size_t i = nodes_.node(k);
+    f[i] += stiffnessAt(k) * (anchor_[k] + shift - at.x[i]);
   }
 }
 
@@ -68,7 +80,7 @@ double GripForceField::potentialEnergy(const StateView& at) const {
   const Vec3 shift = displacementAt(at.time);
   double energy = 0;
   for (std::size_t k = 0; k < anchor_.size(); ++k) {
-    energy += 0.5 * stiffness * (anchor_[k] + shift - at.x[node(k)]).squaredNorm();
+    energy += 0.5 * stiffnessAt(k) * (anchor_[k] + shift - at.x[nodes_.node(k)]).squaredNorm();
   }
   return energy;
 }
@@ -77,15 +89,15 @@ void GripForceField::addTangentProduct(ConstVec3Span dx, double stiffnessFactor,
                                        Vec3Span df) const {
   if (!holdsLinear_) return;
   for (std::size_t k = 0; k < anchor_.size(); ++k) {
-    df[node(k)] -= (stiffnessFactor * stiffness) * dx[node(k)];
+    df[nodes_.node(k)] -= (stiffnessFactor * stiffnessAt(k)) * dx[nodes_.node(k)];
   }
 }
 
 void GripForceField::addTangent(BlockMatrix& matrix, Index offset, double stiffnessFactor,
                                 double) const {
   if (!holdsLinear_) return;
-  for (const Index i : indices->indices) {
-    matrix.addDiagonal(offset + i, -stiffnessFactor * stiffness);
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    matrix.addDiagonal(offset + nodes_.nodes()[k], -stiffnessFactor * stiffnessAt(k));
   }
 }
 
@@ -94,7 +106,7 @@ void GripForceField::publish(const StepContext& step) {
   Vec3 sum = Vec3::Zero();
   if (holds(step.time)) {
     for (std::size_t k = 0; k < anchor_.size(); ++k) {
-      sum += stiffness * (anchor_[k] + shift - state().x()[node(k)]);
+      sum += stiffnessAt(k) * (anchor_[k] + shift - state().x()[nodes_.node(k)]);
     }
   }
   displacement.set(shift);

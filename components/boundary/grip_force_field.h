@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "components/boundary/shared_nodes.h"
 #include "core/interfaces/force_field.h"
 #include "core/schedule.h"
 
@@ -11,7 +12,8 @@ namespace stroma {
 // A grip that follows a script: every gripped node hangs on a spring from its start position +
 // scale x displacement(t), where displacement(t) is linear between the key times and constant
 // outside them. The start position is where the node is when the grip closes. f = k (target - x),
-// energy k/2 |x - target|^2.
+// energy k/2 |x - target|^2. When a gripped node is separated by a cut, its copy is gripped, too;
+// the two share the spring's stiffness, so that a cut does not change the grip's force.
 class GripForceField final : public ForceField {
  public:
   Attribute<IndexList> indices{this, "indices", {}, "Nodes that are gripped.", {.required = true}};
@@ -61,6 +63,8 @@ class GripForceField final : public ForceField {
   void schedule(Schedule& schedule) override;
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
+  void topologyChanged(const TopologyChange& change) override;
+  void topologyRestored() override;
   [[nodiscard]] MechanicalState& state() const override { return *mechanicalState; }
   void addForce(const StateView& at, Vec3Span f) override;
   [[nodiscard]] double potentialEnergy(const StateView& at) const override;
@@ -78,10 +82,9 @@ class GripForceField final : public ForceField {
   void closeWhenDue(const StepContext& step);
   void publish(const StepContext& step);
   [[nodiscard]] bool holds(double time) const { return closed_ && time < release; }
-  [[nodiscard]] std::size_t node(std::size_t k) const {
-    return static_cast<std::size_t>(indices->indices[k]);
-  }
+  [[nodiscard]] double stiffnessAt(std::size_t k) const { return nodes_.share(k) * stiffness; }
 
+  SharedNodes nodes_;
   std::vector<Vec3> anchor_;  // start position of each gripped node
   bool closed_ = false;
   bool holdsLinear_ = false;

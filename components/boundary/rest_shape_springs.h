@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "components/boundary/shared_nodes.h"
 #include "core/interfaces/force_field.h"
 
 namespace stroma {
 
 // Springs of zero length between particles and their own rest positions: an elastic support, such
 // as the limbus of a cornea. f = k (X - x), energy k/2 |x - X|^2. Unlike in SOFA nothing is chosen
-// silently: which points, and how stiff, must be written.
+// silently: which points, and how stiff, must be written. A node and the copy that a cut separates
+// from it share the spring's stiffness.
 class RestShapeSpringsForceField final : public ForceField {
  public:
   Attribute<IndexList> points{
@@ -23,6 +25,8 @@ class RestShapeSpringsForceField final : public ForceField {
 
   void configure() override;
   void bind() override;
+  void topologyChanged(const TopologyChange& change) override;
+  void topologyRestored() override;
   [[nodiscard]] MechanicalState& state() const override { return *mechanicalState; }
   void addForce(const StateView& at, Vec3Span f) override;
   [[nodiscard]] double potentialEnergy(const StateView& at) const override;
@@ -34,8 +38,11 @@ class RestShapeSpringsForceField final : public ForceField {
                   double damping) const override;
 
  private:
-  std::vector<Index> point_;
-  std::vector<double> stiffness_;  // of each point
+  [[nodiscard]] double stiffnessAt(std::size_t k) const {
+    return points_.share(k) * stiffness_[points_.origin(k)];
+  }
+  SharedNodes points_;
+  std::vector<double> stiffness_;  // of each point before any cut
 };
 
 }  // namespace stroma

@@ -21,14 +21,27 @@ Mat3 crossMatrix(const Vec3& a) {
 
 void SurfacePressureForceField::bind() {
   if (!surface_.select(*this, state(), topology.get(), triangles, triangleIndices)) return;
-  const auto count = static_cast<std::size_t>(surface_.count());
-  areaForce_.resize(count);
-  opposite_.resize(count);
-  swept_.resize(count);
-  sum_.resize(count);
+  makeRoom();
   apex_.setZero();
-  for (const Index i : surface_.rim()) apex_ += state().rest()[static_cast<std::size_t>(i)];
-  if (!surface_.closed()) apex_ /= static_cast<double>(surface_.rim().size());
+  const auto around = surface_.closed() ? surface_.nodes() : surface_.rim();
+  for (const Index i : around) apex_ += state().rest()[static_cast<std::size_t>(i)];
+  if (!around.empty()) apex_ /= static_cast<double>(around.size());
+}
+
+void SurfacePressureForceField::makeRoom() {
+  const auto count = static_cast<std::size_t>(surface_.count());
+  areaForce_.resize(count, Vec3::Zero());
+  opposite_.resize(count, {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
+  swept_.resize(count, Vec3::Zero());
+  sum_.resize(count, Vec3::Zero());
+}
+
+void SurfacePressureForceField::topologyChanged(const TopologyChange& change) {
+  if (surface_.follow(*this, change)) makeRoom();
+}
+
+void SurfacePressureForceField::topologyRestored() {
+  if (surface_.restore()) makeRoom();
 }
 
 double SurfacePressureForceField::pressureAt(double time) const {
@@ -44,9 +57,8 @@ void SurfacePressureForceField::addForce(const StateView& at, Vec3Span f) {
   });
   parallelFor(static_cast<Index>(surface_.nodes().size()), [&](Index n) {
     Vec3 sum = Vec3::Zero();
-    for (const auto& corner : surface_.cornersAt(n)) {
-      sum += areaForce_[static_cast<std::size_t>(corner.triangle)];
-    }
+    surface_.forCorners(
+        n, [&](Index triangle, Index) { sum += areaForce_[static_cast<std::size_t>(triangle)]; });
     f[static_cast<std::size_t>(surface_.nodes()[static_cast<std::size_t>(n)])] += sum;
   });
 }
@@ -91,10 +103,10 @@ void SurfacePressureForceField::addTangentProduct(ConstVec3Span dx, double stiff
   });
   parallelFor(static_cast<Index>(surface_.nodes().size()), [&](Index n) {
     Vec3 change = Vec3::Zero();
-    for (const auto& corner : surface_.cornersAt(n)) {
-      const auto k = static_cast<std::size_t>(corner.triangle);
-      change += swept_[k] + opposite_[k][static_cast<std::size_t>(corner.corner)].cross(sum_[k]);
-    }
+    surface_.forCorners(n, [&](Index triangle, Index corner) {
+      const auto k = static_cast<std::size_t>(triangle);
+      change += swept_[k] + opposite_[k][static_cast<std::size_t>(corner)].cross(sum_[k]);
+    });
     df[static_cast<std::size_t>(surface_.nodes()[static_cast<std::size_t>(n)])] += factor * change;
   });
 }

@@ -17,6 +17,10 @@ namespace stroma {
 // symmetric. On an open one the energy is -p times the volume of the cone to the middle of the rim
 // at rest. That is exact for all nodes but those on the rim, and for these, too, when they are
 // held; the derivative is the symmetric part, as linear solvers need it.
+//
+// When the body is cut, pieces of loaded triangles are loaded; the walls of the incision are not.
+// The cone of the energy keeps its apex (on a surface that was closed, the middle of its nodes), so
+// that a cut does not change the energy.
 class SurfacePressureForceField final : public ForceField {
  public:
   Attribute<double> pressure{this,
@@ -45,6 +49,9 @@ class SurfacePressureForceField final : public ForceField {
       this, "topology", "Where the triangles come from.", Lookup::nearest, {.required = false}};
 
   void bind() override;
+  void topologyChanged(const TopologyChange& change) override;
+  void topologyRestored() override;
+  void checkTopology(TopologyCheck& check) const override { surface_.check(*this, check); }
   [[nodiscard]] MechanicalState& state() const override { return *mechanicalState; }
   void addForce(const StateView& at, Vec3Span f) override;
   [[nodiscard]] double potentialEnergy(const StateView& at) const override;
@@ -60,6 +67,7 @@ class SurfacePressureForceField final : public ForceField {
   [[nodiscard]] double volume(ConstVec3Span x) const;
 
  private:
+  void makeRoom();
   SurfaceTriangles surface_;
   Vec3 apex_ = Vec3::Zero();
   double linearPressure_ = 0;

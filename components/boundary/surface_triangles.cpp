@@ -2,6 +2,8 @@
 #include "components/boundary/surface_triangles.h"
 
 #include <algorithm>
+#include <map>
+#include <numeric>
 
 namespace stroma {
 
@@ -9,19 +11,23 @@ bool SurfaceTriangles::select(Component& component, const MechanicalState& state
                               const Topology* topology,
                               const Attribute<std::vector<Triangle>>& given,
                               const Attribute<IndexList>& subset) {
+  state_ = &state;
+  topology_ = topology;
   if (given.isSet()) {
-    triangles_ = given;
+    selected_ = given;
   } else if (topology) {
-    triangles_.assign(topology->triangles().begin(), topology->triangles().end());
+    selected_.assign(topology->triangles().begin(), topology->triangles().end());
   }
-  const auto total = static_cast<Index>(triangles_.size());
+  const auto total = static_cast<Index>(selected_.size());
   if (total == 0) {
     component.error("triangles-empty", "has no triangles to act on",
                     "give 'triangles', or a topology with triangles to the node");
     return false;
   }
+  findSlots(given.isSet());
   if (subset.isSet()) {
     std::vector<Triangle> chosen;
+    std::vector<Index> slots;
     for (const Index t : subset->indices) {
       if (t < 0 || t >= total) {
         component.error(
@@ -30,12 +36,14 @@ bool SurfaceTriangles::select(Component& component, const MechanicalState& state
             "triangles are counted from 0 to " + std::to_string(total - 1));
         return false;
       }
-      chosen.push_back(triangles_[static_cast<std::size_t>(t)]);
+      chosen.push_back(selected_[static_cast<std::size_t>(t)]);
+      slots.push_back(slots_[static_cast<std::size_t>(t)]);
     }
-    triangles_ = std::move(chosen);
-    if (triangles_.empty()) component.warning("index-empty", "acts on no triangle");
+    selected_ = std::move(chosen);
+    slots_ = std::move(slots);
+    if (selected_.empty()) component.warning("index-empty", "acts on no triangle");
   }
-  for (const Triangle& triangle : triangles_) {
+  for (const Triangle& triangle : selected_) {
     for (const Index node : triangle) {
       if (node >= 0 && node < state.size()) continue;
       component.error("index-range",
@@ -45,35 +53,127 @@ bool SurfaceTriangles::select(Component& component, const MechanicalState& state
       return false;
     }
   }
-  gatherCorners();
+  foreign_ = std::ranges::find(slots_, -1) != slots_.end();
+  build();
   findRim();
   return true;
 }
 
-void SurfaceTriangles::gatherCorners() {
-  std::vector<std::pair<Index, Corner>> all;
-  for (Index t = 0; t < count(); ++t) {
-    for (int c = 0; c < 3; ++c) {
-      all.push_back({triangles_[static_cast<std::size_t>(t)][static_cast<std::size_t>(c)], {t, c}});
-    }
+// The topology's numbers of triangles that were given are found by their nodes.
+void SurfaceTriangles::findSlots(bool given) {
+  slots_.assign(selected_.size(), -1);
+  if (!given) return std::iota(slots_.begin(), slots_.end(), Index{0});
+  if (!topology_) return;
+  std::map<Triangle, Index> numbers;
+  Index number = 0;
+  for (const Triangle& t : topology_->triangles()) numbers.emplace(t, number++);
+  for (std::size_t k = 0; k < selected_.size(); ++k) {
+    const auto at = numbers.find(selected_[k]);
+    if (at != numbers.end()) slots_[k] = at->second;
   }
-  std::ranges::stable_sort(all, {}, [](const auto& entry) { return entry.first; });
+}
+
+void SurfaceTriangles::build() {
+  links_.build(selected_, state_->size());
   nodes_.clear();
-  begin_.clear();
-  corners_.clear();
-  for (const auto& [node, corner] : all) {
-    if (nodes_.empty() || nodes_.back() != node) {
-      nodes_.push_back(node);
-      begin_.push_back(corners_.size());
-    }
-    corners_.push_back(corner);
+  placeOf_.assign(static_cast<std::size_t>(state_->size()), -1);
+  for (Index node = 0; node < state_->size(); ++node) {
+    if (!links_.hasCorner(node)) continue;
+    placeOf_[static_cast<std::size_t>(node)] = static_cast<Index>(nodes_.size());
+    nodes_.push_back(node);
   }
-  begin_.push_back(corners_.size());
+  loaded_.clear();
+  if (topology_) loaded_.assign(topology_->triangles().size(), -1);
+  for (std::size_t k = 0; k < slots_.size(); ++k) {
+    if (slots_[k] >= 0) loaded_[static_cast<std::size_t>(slots_[k])] = static_cast<Index>(k);
+  }
+}
+
+bool SurfaceTriangles::follow(Component& component, const TopologyChange& change) {
+  if (&change.nodes != state_) return false;
+  const bool known = &change.surface == topology_;
+  if ((!known || foreign_) && !warned_) {
+    warned_ = true;
+    component.warning("triangles-uncut",
+                      "acts on triangles that '" + change.surface.path() +
+                          "', which has been cut, does not have: they stay as they were",
+                      "link that topology, and choose triangles of it");
+  }
+  if (!known) return false;
+  cut_ = true;
+  changed_.clear();
+  const SurfaceEdit& edit = change.edit;
+  placeOf_.resize(static_cast<std::size_t>(state_->size()), -1);
+  loaded_.resize(static_cast<std::size_t>(edit.firstNewTriangle) + edit.appended.size(), -1);
+  for (const ChangedTriangle& t : edit.changed) {
+    const Index own = loaded_[static_cast<std::size_t>(t.slot)];
+    if (own >= 0) this->change(own, t.nodes);
+  }
+  for (std::size_t k = 0; k < edit.appended.size(); ++k) {
+    if (!joins(edit, edit.appended[k])) continue;
+    loaded_[static_cast<std::size_t>(edit.firstNewTriangle) + k] = count();
+    this->change(count(), edit.appended[k].nodes);
+  }
+  std::ranges::sort(changed_);
+  const auto [repeated, end] = std::ranges::unique(changed_);
+  changed_.erase(repeated, end);
+  return !changed_.empty();
+}
+
+// Whether it is a piece of a loaded triangle. Its parent may be a piece of the same change.
+bool SurfaceTriangles::joins(const SurfaceEdit& edit, const AppendedTriangle& triangle) const {
+  const AppendedTriangle* piece = &triangle;
+  while (!piece->wall && piece->parent >= edit.firstNewTriangle) {
+    piece = &edit.appended[static_cast<std::size_t>(piece->parent - edit.firstNewTriangle)];
+  }
+  return !piece->wall && piece->parent >= 0 &&
+         loaded_[static_cast<std::size_t>(piece->parent)] >= 0;
+}
+
+void SurfaceTriangles::change(Index triangle, const Triangle& nodes) {
+  const auto touch = [&](const Triangle& t) {
+    for (const Index node : t) {
+      Index& place = placeOf_[static_cast<std::size_t>(node)];
+      if (place < 0) {
+        place = static_cast<Index>(nodes_.size());
+        nodes_.push_back(node);
+      }
+      changed_.push_back(place);
+    }
+  };
+  if (triangle < count()) touch(links_.triangles()[static_cast<std::size_t>(triangle)]);
+  touch(nodes);
+  links_.change(triangle, nodes);
+}
+
+void SurfaceTriangles::check(const Component& component, TopologyCheck& check) const {
+  if (&check.nodes != state_ || &check.surface != topology_) return;
+  const auto require = [&](bool holds, const char* what) {
+    if (!holds) check.failures.push_back(component.path() + ": " + what);
+  };
+  const auto all = check.surface.triangles();
+  bool same = loaded_.size() == all.size() || !cut_, gathered = true;
+  for (std::size_t slot = 0; slot < loaded_.size() && same; ++slot) {
+    const Index own = loaded_[slot];
+    same = own < 0 || triangles()[static_cast<std::size_t>(own)] == all[slot];
+  }
+  for (const Triangle& t : triangles()) {
+    for (const Index node : t) gathered = gathered && placeOf_[static_cast<std::size_t>(node)] >= 0;
+  }
+  require(same, "its triangles are not the surface's");
+  require(gathered, "a node of its triangles carries no load");
+}
+
+bool SurfaceTriangles::restore() {
+  if (!cut_) return false;
+  cut_ = false;
+  build();
+  return true;
 }
 
 void SurfaceTriangles::findRim() {
   std::vector<Edge> edges;
-  for (const Triangle& t : triangles_) {
+  for (const Triangle& t : selected_) {
     for (std::size_t c = 0; c < 3; ++c) edges.push_back({t[c], t[(c + 1) % 3]});
   }
   std::ranges::sort(edges);

@@ -16,26 +16,40 @@ void TractionForceField::configure() {
 
 void TractionForceField::bind() {
   if (!surface_.select(*this, state(), topology.get(), triangles, triangleIndices)) return;
-  Mat3 tensor = Mat3::Zero();
   if (stress.isSet()) {
     const std::vector<double>& s = stress;
     if (s.size() != 6) {
       error(stress, "value-count", "has " + std::to_string(s.size()) + " numbers, expected 6");
       return;
     }
-    tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+    tensor_ << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
   }
-  const ConstVec3Span rest = state().rest();
-  force_.assign(surface_.nodes().size(), Vec3::Zero());
-  for (std::size_t n = 0; n < force_.size(); ++n) {
-    for (const auto& corner : surface_.cornersAt(static_cast<Index>(n))) {
-      const Triangle& t = surface_.triangles()[static_cast<std::size_t>(corner.triangle)];
-      const Vec3& a = rest[static_cast<std::size_t>(t[0])];
-      const Vec3 area = 0.5 * (rest[static_cast<std::size_t>(t[1])] - a)
-                                  .cross(rest[static_cast<std::size_t>(t[2])] - a);
-      force_[n] += (stress.isSet() ? Vec3(tensor * area) : Vec3(area.norm() * *traction)) / 3;
-    }
-  }
+  computeForces();
+}
+
+void TractionForceField::computeForces() {
+  force_.resize(surface_.nodes().size());
+  for (std::size_t n = 0; n < force_.size(); ++n) force_[n] = fullForce(static_cast<Index>(n));
+}
+
+Vec3 TractionForceField::fullForce(Index place) const {
+  Vec3 force = Vec3::Zero();
+  surface_.forCorners(place, [&](Index triangle, Index) {
+    const Triangle& t = surface_.triangles()[static_cast<std::size_t>(triangle)];
+    const Vec3 area = 0.5 * cornersOf(t, state().rest()).areaNormal();
+    force += (stress.isSet() ? Vec3(tensor_ * area) : Vec3(area.norm() * *traction)) / 3;
+  });
+  return force;
+}
+
+void TractionForceField::topologyChanged(const TopologyChange& change) {
+  if (!surface_.follow(*this, change)) return;
+  force_.resize(surface_.nodes().size());
+  for (const Index n : surface_.changedNodes()) force_[static_cast<std::size_t>(n)] = fullForce(n);
+}
+
+void TractionForceField::topologyRestored() {
+  if (surface_.restore()) computeForces();
 }
 
 double TractionForceField::factorAt(double time) const {

@@ -10,7 +10,8 @@ namespace stroma {
 // `traction` for all triangles, or traction = `stress` N with N the triangle's outward normal at
 // rest and `stress` the first Piola-Kirchhoff stress, given as xx yy zz xy yz zx; on the whole
 // surface of a body this is the load of a uniform stress. A third of each triangle's force goes to
-// each of its nodes.
+// each of its nodes. When the body is cut, pieces of loaded triangles carry the load of their own
+// areas; the walls of the incision carry none.
 class TractionForceField final : public ForceField {
  public:
   Attribute<Vec3> traction{this,
@@ -47,6 +48,9 @@ class TractionForceField final : public ForceField {
 
   void configure() override;
   void bind() override;
+  void topologyChanged(const TopologyChange& change) override;
+  void topologyRestored() override;
+  void checkTopology(TopologyCheck& check) const override { surface_.check(*this, check); }
   [[nodiscard]] MechanicalState& state() const override { return *mechanicalState; }
   void addForce(const StateView& at, Vec3Span f) override;
   [[nodiscard]] double potentialEnergy(const StateView& at) const override;
@@ -56,8 +60,12 @@ class TractionForceField final : public ForceField {
 
  private:
   [[nodiscard]] double factorAt(double time) const;
+  // Full force on nodes()[place] of the surface.
+  [[nodiscard]] Vec3 fullForce(Index place) const;
+  void computeForces();
   SurfaceTriangles surface_;
-  std::vector<Vec3> force_;  // full force on each loaded node
+  Mat3 tensor_ = Mat3::Zero();  // the stress
+  std::vector<Vec3> force_;     // full force on each loaded node
 };
 
 }  // namespace stroma

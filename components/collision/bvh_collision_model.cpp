@@ -28,10 +28,14 @@ bool BVHCollisionModel::checkTriangles() {
 
 void BVHCollisionModel::bind() {
   if (!checkTriangles()) return;
+  build();
+  measureEdges();
+}
+
+void BVHCollisionModel::build() {
   links_.build(topology->triangles(), state().size());
   tree_.build(links_.triangles(), state().rest());
   closed_ = links_.closed();
-  measureEdges();
 }
 
 void BVHCollisionModel::measureEdges() {
@@ -47,7 +51,8 @@ void BVHCollisionModel::start() {
   now_.assign(state().x().begin(), state().x().end());
   before_ = now_;
   boundsStep_ = followStep_ = 0;
-  mayDiffer_ = true;
+  pieces_.clear();
+  cutOff_.clear();
 }
 
 const Bounds& BVHCollisionModel::bounds(std::uint64_t step) {
@@ -61,33 +66,77 @@ const Bounds& BVHCollisionModel::bounds(std::uint64_t step) {
 
 void BVHCollisionModel::follow(std::uint64_t step) {
   if (followStep_ == step) return;
-  if (mayDiffer_) matchTopology();
   const bool continues = followStep_ != 0 && followStep_ + 1 == step;
   const ConstVec3Span x = state().x();
   before_.swap(now_);
   now_.assign(x.begin(), x.end());
   if (!continues) before_ = now_;
+  pieces_.swap(cutOff_);
+  cutOff_.clear();
   tree_.refit(links_.triangles(), before_, now_);
   followStep_ = step;
 }
 
-// After a reset or from a checkpoint the topology may have other triangles than were followed here.
-void BVHCollisionModel::matchTopology() {
-  mayDiffer_ = false;
-  const auto triangles = topology->triangles();
-  if (std::ranges::equal(triangles, links_.triangles())) return;
-  links_.build(triangles, state().size());
-  tree_.build(triangles, state().x());
+void BVHCollisionModel::topologyChanged(const TopologyChange& change) {
+  if (&change.surface != topology.get() || &change.nodes != &state()) return;
+  cut_ = true;
+  const SurfaceEdit& edit = change.edit;
+  appendPositions(edit);
+  const auto appended = [&](std::size_t k) {
+    return edit.firstNewTriangle + static_cast<Index>(k);
+  };
+  for (const ChangedTriangle& t : edit.changed) this->change(t.slot, t.nodes);
+  for (std::size_t k = 0; k < edit.appended.size(); ++k) {
+    const AppendedTriangle& t = edit.appended[k];
+    this->change(appended(k), t.nodes);
+    if (!t.wall) cutOff_.push_back({t.parent, appended(k)});
+  }
+  // what was closed can only be open along what has changed
+  for (const ChangedTriangle& t : edit.changed) closed_ = closed_ && links_.closedRound(t.slot);
+  for (std::size_t k = 0; k < edit.appended.size(); ++k) {
+    closed_ = closed_ && links_.closedRound(appended(k));
+  }
 }
 
-void BVHCollisionModel::topologyChanged(std::span<const Index> changed) {
-  const auto triangles = topology->triangles();
-  const ConstVec3Span x = state().x();
-  for (const Index t : changed) {
-    const Triangle& nodes = triangles[static_cast<std::size_t>(t)];
-    links_.change(t, nodes);
-    tree_.change(t, nodes, x);
+// New nodes were where the surface was at the last follow(), so that it moves on without a gap.
+void BVHCollisionModel::appendPositions(const SurfaceEdit& edit) {
+  const auto was = [&](Index node) { return now_[static_cast<std::size_t>(node)]; };
+  for (const NewSurfaceNode& node : edit.nodes) {
+    Vec3 p;
+    if (node.copyOf >= 0) {
+      p = was(node.copyOf);
+    } else if (node.parents[0] >= 0) {
+      p = (1 - node.weight) * was(node.parents[0]) + node.weight * was(node.parents[1]);
+    } else {
+      p = state().x()[now_.size()];
+    }
+    now_.push_back(p);
   }
+}
+
+void BVHCollisionModel::change(Index triangle, const Triangle& nodes) {
+  links_.change(triangle, nodes);
+  tree_.change(triangle, nodes, now_);
+}
+
+void BVHCollisionModel::checkTopology(TopologyCheck& check) const {
+  if (&check.surface != topology.get() || &check.nodes != &state()) return;
+  const auto require = [&](bool holds, const char* what) {
+    if (!holds) check.failures.push_back(path() + ": " + what);
+  };
+  require(std::ranges::equal(triangles(), check.surface.triangles()),
+          "its triangles are not the surface's");
+  require(std::ssize(now_) == state().size(), "its positions are not one a node");
+  require(followStep_ == 0 || tree_.holds(triangles(), now_),
+          "a box of its tree does not hold what is in it");
+  require(closed_ == links_.closed(), "whether it is closed is wrong");
+}
+
+void BVHCollisionModel::topologyRestored() {
+  if (!cut_) return;
+  cut_ = false;
+  build();
+  start();
 }
 
 NearestTriangle BVHCollisionModel::nearest(const Vec3& p, double reach) const {
@@ -101,10 +150,7 @@ FirstCrossing BVHCollisionModel::firstEntry(const Vec3& p0, const Vec3& p1) cons
 NearestTriangle BVHCollisionModel::slide(const Vec3& p, Index from, const Vec3& facing) const {
   constexpr double turnedAway = -0.3;  // cosine: more than a rim's right angle
   const auto triangles = links_.triangles();
-  const auto on = [&](Index t) {
-    return nearestOnTriangle(cornersOf(triangles[static_cast<std::size_t>(t)], now_), p);
-  };
-  NearestTriangle best{from, on(from)};
+  NearestTriangle best{from, nearestOn(from, p)};
   while (true) {
     const Triangle& here = triangles[static_cast<std::size_t>(best.triangle)];
     NearestTriangle next = best;
@@ -118,7 +164,7 @@ NearestTriangle BVHCollisionModel::slide(const Vec3& p, Index from, const Vec3& 
           const bool touches = std::ranges::find(nodes, here[k]) != nodes.end();
           if (best.at.weights[static_cast<Eigen::Index>(k)] != 0 && !touches) return;
         }
-        const TrianglePoint at = on(t);
+        const TrianglePoint at = nearestOn(t, p);
         if (!(at.distance2 < next.at.distance2)) return;
         const Vec3 n = cornersOf(nodes, now_).areaNormal();
         if (n.dot(facing) > turnedAway * n.norm()) next = {t, at};
@@ -127,6 +173,17 @@ NearestTriangle BVHCollisionModel::slide(const Vec3& p, Index from, const Vec3& 
     if (next.triangle == best.triangle) return best;
     best = next;
   }
+}
+
+Index BVHCollisionModel::pieceNear(Index triangle, const Vec3& p) const {
+  if (pieces_.empty()) return triangle;
+  std::vector<Index> candidates{triangle};
+  for (const Piece& piece : pieces_) {
+    if (std::ranges::find(candidates, piece.of) == candidates.end()) continue;
+    candidates.push_back(piece.triangle);
+  }
+  return *std::ranges::min_element(candidates, {},
+                                   [&](Index t) { return nearestOn(t, p).distance2; });
 }
 
 void BVHCollisionModel::nodesInBall(const Vec3& centre, double radius, std::vector<Index>& nodes) {
@@ -172,7 +229,8 @@ void BVHCollisionModel::save(StateWriter& writer) const {
 
 void BVHCollisionModel::restore(StateReader& reader) {
   boundsStep_ = 0;
-  mayDiffer_ = true;
+  pieces_.clear();
+  cutOff_.clear();
   now_.resize(reader.count<double>("positions") / 3);
   if (!reader.read("positions", Vec3Span(now_)) || !reader.read("followStep", followStep_)) {
     start();

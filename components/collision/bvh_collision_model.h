@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "components/collision/surface_links.h"
 #include "components/collision/triangle_tree.h"
 #include "core/interfaces/collision_model.h"
 #include "core/interfaces/mesh.h"
 #include "core/link.h"
+#include "core/surface_links.h"
+#include "core/topology_change.h"
 
 namespace stroma {
 
@@ -28,7 +29,11 @@ class BVHCollisionModel final : public CollisionModel {
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
   [[nodiscard]] MechanicalState& state() const override { return *mechanicalState; }
-  void topologyChanged(std::span<const Index> triangles) override;
+  // The tree follows a cut at a cost proportional to the change, when both the triangles and the
+  // state are those of the body's surface.
+  void topologyChanged(const TopologyChange& change) override;
+  void topologyRestored() override;
+  void checkTopology(TopologyCheck& check) const override;
 
   // The box round all nodes now; formed once a step.
   [[nodiscard]] const Bounds& bounds(std::uint64_t step);
@@ -45,6 +50,9 @@ class BVHCollisionModel final : public CollisionModel {
   // how the end of a god-object's leash slides (Zilles and Salisbury 1995). It stays on the side
   // of a thin sheet on which it began.
   [[nodiscard]] NearestTriangle slide(const Vec3& p, Index from, const Vec3& facing) const;
+  // Of a triangle that a cut has divided since the follow() before, the piece nearest to p; the
+  // triangle itself where none has.
+  [[nodiscard]] Index pieceNear(Index triangle, const Vec3& p) const;
   // Nodes of triangles near the ball, ascending.
   void nodesInBall(const Vec3& centre, double radius, std::vector<Index>& nodes);
   // Unit pseudonormals, see SurfaceLinks.
@@ -61,17 +69,27 @@ class BVHCollisionModel final : public CollisionModel {
 
  private:
   [[nodiscard]] bool checkTriangles();
+  void build();
   void measureEdges();
-  void matchTopology();
+  void appendPositions(const SurfaceEdit& edit);
+  void change(Index triangle, const Triangle& nodes);
+  [[nodiscard]] TrianglePoint nearestOn(Index triangle, const Vec3& p) const {
+    return nearestOnTriangle(
+        cornersOf(links_.triangles()[static_cast<std::size_t>(triangle)], now_), p);
+  }
 
   SurfaceLinks links_;
   TriangleTree tree_;
   std::vector<Vec3> before_, now_;  // positions at the last two calls of follow()
   Bounds bounds_;
   std::uint64_t boundsStep_ = 0, followStep_ = 0;  // 0: never
-  std::vector<Index> near_;                        // scratch
+  struct Piece {
+    Index of, triangle;
+  };
+  std::vector<Piece> cutOff_, pieces_;  // since the last follow(), and since the one before
+  std::vector<Index> near_;             // scratch
   double meanEdge_ = 0;
-  bool closed_ = false, mayDiffer_ = false;
+  bool closed_ = false, cut_ = false;
 };
 
 }  // namespace stroma

@@ -11,6 +11,9 @@ namespace stroma {
 // tip is hung on a spring to where it is in the tool's frame, so that closing pulls at nothing; the
 // springs move and turn with the tool until the trigger opens. f = k (target - x), energy
 // k/2 |x - target|^2. The tool gets the opposite forces at the nodes.
+//
+// When the surface is cut through a held node, its copy is held at the same place; the two share
+// the spring's stiffness, so that a cut neither pulls nor adds energy.
 class GripContact final : public ForceField {
  public:
   Attribute<double> stiffness{
@@ -34,6 +37,8 @@ class GripContact final : public ForceField {
   void schedule(Schedule& schedule) override;
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
+  void topologyChanged(const TopologyChange& change) override;
+  void topologyRestored() override { start(); }
   [[nodiscard]] MechanicalState& state() const override { return *mechanicalState; }
   void addForce(const StateView& at, Vec3Span f) override;
   [[nodiscard]] double potentialEnergy(const StateView& at) const override;
@@ -47,9 +52,12 @@ class GripContact final : public ForceField {
   void close();
   void publish(const StepContext& step);
 
+  [[nodiscard]] double stiffnessAt(std::size_t k) const { return share_[k] * stiffness; }
+
   std::vector<Index> held_;
-  std::vector<Vec3> local_;   // of each held node, in the tool's frame
-  std::vector<Vec3> target_;  // the same in the scene, at the end of the step
+  std::vector<double> share_;  // of each held node in a spring's stiffness, 1 unless it was cut
+  std::vector<Vec3> local_;    // of each held node, in the tool's frame
+  std::vector<Vec3> target_;   // the same in the scene, at the end of the step
   bool closed_ = false;
   Limiter closedOnNothing_{this, "closedOnNothing", "The grip closed where no node was in reach."};
 };

@@ -99,6 +99,9 @@ class PenaltyContactForceField final : public ForceField {
   void schedule(Schedule& schedule) override;
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
+  // Contacts are found anew in every step, and the numbers of triangles and nodes that are kept in
+  // between stay valid when a body is cut; not so when it is whole again.
+  void topologyRestored() override { start(); }
   [[nodiscard]] MechanicalState& state() const override { return collision->state(); }
   void addForce(const StateView& at, Vec3Span f) override;
   [[nodiscard]] double potentialEnergy(const StateView& at) const override;

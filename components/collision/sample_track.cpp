@@ -38,6 +38,7 @@ std::optional<Touch> SampleTrack::follow(const BVHCollisionModel& surface, const
   const Vec3 begin = known ? position_ : from;
   position_ = to;
   if (inside()) {
+    triangle_ = surface.pieceNear(triangle_, begin);
     if (const auto touch = held(surface, to, radius)) return touch;
   } else if (const FirstCrossing entry = surface.firstEntry(begin, to); entry.triangle >= 0) {
     where_ = Where::inside;

@@ -23,7 +23,8 @@ struct Touch {
 // then stays inside, also when it has gone through a thin sheet and out on the other side, until
 // it is in front of the place where the leash from its entry holds it (see
 // BVHCollisionModel::slide). Of closed surfaces a sample that starts inside is known to be there by
-// the sign of the distance; behind an open one a sample touches nothing.
+// the sign of the distance; behind an open one a sample touches nothing. Where the triangle at the
+// leash's end is cut, the sample goes on with the piece that is nearest to it.
 class SampleTrack {
  public:
   // The surface is followed to this step. The sample, of this radius (m), moves from `from` to

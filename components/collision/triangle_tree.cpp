@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "components/collision/surface_links.h"
+#include "core/surface_links.h"
 
 namespace stroma {
 namespace {

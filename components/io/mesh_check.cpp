@@ -66,8 +66,8 @@ void checkEdges(const MeshData& mesh, std::vector<MeshRemark>& remarks) {
 
 std::vector<MeshRemark> checkMesh(const MeshData& mesh) {
   std::vector<MeshRemark> remarks;
-  if (mesh.positions.empty() ||
-      (mesh.triangles.empty() && mesh.quads.empty() && mesh.edges.empty())) {
+  if (mesh.positions.empty() || (mesh.triangles.empty() && mesh.quads.empty() &&
+                                 mesh.edges.empty() && mesh.tetrahedra.empty())) {
     remarks.push_back({true, "mesh-empty",
                        "has " + std::to_string(mesh.positions.size()) + " points and no faces"});
     return remarks;
@@ -89,6 +89,7 @@ std::vector<MeshRemark> checkMesh(const MeshData& mesh) {
   use(mesh.edges);
   use(mesh.triangles);
   use(mesh.quads);
+  use(mesh.tetrahedra);
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     if (!isDegenerate(mesh.positions, mesh.triangles[f])) continue;
     degenerate.add("triangle " + std::to_string(f) + " (points " + text(mesh.triangles[f]) +

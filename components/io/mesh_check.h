@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is odd about a surface mesh that a file gave. Bad indices and coordinates make it unusable;
+// What is odd about a mesh that a file gave. Bad indices and coordinates make it unusable;
 // the rest is for the user to know, since only who needs a closed or manifold surface can object.
 #pragma once
 

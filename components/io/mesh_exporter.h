@@ -15,7 +15,8 @@ struct EnumNames<SurfaceFormat> {
 };
 
 // Writes the deformed surface as a mesh file. While the scene runs files are numbered by their
-// step, <filename>_000100.obj; what is written at the end is <filename>.obj.
+// step, <filename>_000100.obj; what is written at the end is <filename>.obj. Of a body that has
+// been cut the triangles are those of now; nodes that have none stay as points.
 class MeshExporter final : public Recorder {
  public:
   Attribute<SurfaceFormat> format{this, "format", SurfaceFormat::obj, "Kind of file."};
@@ -29,6 +30,7 @@ class MeshExporter final : public Recorder {
                   {.required = false}};
 
   void bind() override;
+  void topologyChanged(const TopologyChange& change) override;
   void reset() override;
   void stop() override;
 
@@ -36,7 +38,7 @@ class MeshExporter final : public Recorder {
   void record(double time, std::uint64_t step) override;
 
  private:
-  std::span<const Triangle> triangles_;
+  const Mesh* elements_ = nullptr;
   bool ended_ = false;
 };
 

@@ -11,6 +11,7 @@
 #include <map>
 
 #include "components/io/file_check.h"
+#include "components/io/gmsh_file.h"
 #include "core/diagnostics.h"
 
 namespace stroma {
@@ -19,7 +20,7 @@ namespace {
 constexpr std::uintmax_t mostBytes = 2'000'000'000;
 
 const char* extension(MeshFormat format) {
-  constexpr std::array names{"obj", "stl", "ply"};
+  constexpr std::array names{"obj", "stl", "ply", "msh"};
   return names[static_cast<std::size_t>(format)];
 }
 
@@ -200,6 +201,7 @@ MeshData parseMesh(std::string_view bytes, MeshFormat format, bool triangulate) 
     data.problems.push_back({"the file is empty"});
     return data;
   }
+  if (format == MeshFormat::gmsh) return parseGmsh(bytes);
   if (format == MeshFormat::obj) {
     records = scanObj(bytes);
     data.problems = records.problems;

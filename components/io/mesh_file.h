@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads surface meshes from files through the assimp library.
+// Reads meshes from files: surfaces through the assimp library, Gmsh's solids without it.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace stroma {
 
-enum class MeshFormat { obj, stl, ply };
+enum class MeshFormat { obj, stl, ply, gmsh };
 
 // A named part of a mesh: a group or object of an OBJ file, a solid of an STL file.
 struct MeshGroup {
@@ -25,8 +25,9 @@ struct MeshData {
   std::vector<Edge> edges;
   std::vector<Triangle> triangles;
   std::vector<Quad> quads;
-  std::vector<Vec3> normals;    // one a point or none; corners that differ are averaged
-  std::vector<Vec3> texcoords;  // one a point or none; the first corner's
+  std::vector<Tetrahedron> tetrahedra;  // positive: the last point is in front of the others
+  std::vector<Vec3> normals;            // one a point or none; corners that differ are averaged
+  std::vector<Vec3> texcoords;          // one a point or none; the first corner's
   std::vector<MeshGroup> groups;
   std::vector<MeshProblem> problems;  // why there is no mesh; empty when there is one
 };
@@ -35,7 +36,7 @@ struct MeshData {
 // with all digits, N vertices of a PLY file N points. STL files name no points: equal
 // positions are one point, numbered as they first occur. Coordinates of PLY and STL files come
 // in single precision. Convex quads and polygons are split into
-// triangles unless told otherwise.
+// triangles unless told otherwise. See gmsh_file.h for Gmsh files.
 // Never throws and never reads files of more than 2 GB.
 [[nodiscard]] MeshData readMesh(const std::filesystem::path& file, MeshFormat format,
                                 bool triangulate = true);

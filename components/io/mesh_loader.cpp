@@ -17,6 +17,9 @@ void MeshLoader::transform(MeshData& mesh) const {
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
     for (Quad& q : mesh.quads) std::swap(q[1], q[3]);
   }
+  if (stretch.prod() < 0) {
+    for (Tetrahedron& t : mesh.tetrahedra) std::swap(t[2], t[3]);
+  }
   if (flipNormals) {
     for (Vec3& n : mesh.normals) n = -n;
   }
@@ -48,6 +51,10 @@ void MeshLoader::bind() {
     error(subdivisions, "attr-conflict", "needs triangles, and the mesh has quads",
           "leave triangulate at true");
   }
+  if (subdivisions > 0 && !mesh.tetrahedra.empty()) {
+    error(subdivisions, "attr-conflict",
+          "splits triangles, and the mesh has tetrahedra behind them", "write a finer mesh file");
+  }
   if (failed()) return;
   transform(mesh);
   for (int level = 0; level < subdivisions; ++level) subdivide(mesh);
@@ -72,6 +79,7 @@ void MeshLoader::publish(MeshData mesh) {
   edgeList.set(std::move(mesh.edges));
   triangleList.set(std::move(mesh.triangles));
   quadList.set(std::move(mesh.quads));
+  tetrahedronList.set(std::move(mesh.tetrahedra));
   normals.set(std::move(mesh.normals));
   texcoords.set(std::move(mesh.texcoords));
 }

@@ -7,12 +7,13 @@
 
 namespace stroma {
 
-// A surface mesh from a file, scaled, rotated about x, then y, then z (R = Rz Ry Rx) and shifted.
+// A mesh from a file, scaled, rotated about x, then y, then z (R = Rz Ry Rx) and shifted.
 // Coordinates in the file are metres unless `scale` says otherwise (0.001 for a mesh in
 // millimetres). Files that give no mesh, bad indices and coordinates that are not finite are
 // errors; triangles without area, edges with three triangles or with two that face opposite ways,
 // points without a face and sizes that no tissue has are warnings, the first four only when nobody
-// refused the mesh for them.
+// refused the mesh for them. Tetrahedra, which Gmsh files have, stay positively oriented when
+// the mesh is reflected or its normals are flipped.
 class MeshLoader : public Mesh {
  public:
   Attribute<FilePath> filename{this, "filename", {}, "The mesh file.", {.required = true}};
@@ -51,6 +52,12 @@ class MeshLoader : public Mesh {
                                         {},
                                         "Quads, where they are not triangulated.",
                                         {.output = true, .autolink = true}};
+  Attribute<std::vector<Tetrahedron>> tetrahedronList{
+      this,
+      "tetrahedra",
+      {},
+      "Tetrahedra, in the order of the file.",
+      {.output = true, .autolink = true, .aliases = "tetras"}};
   Attribute<std::vector<Vec3>> normals{this,
                                        "normals",
                                        {},
@@ -74,6 +81,9 @@ class MeshLoader : public Mesh {
   [[nodiscard]] std::span<const Edge> edges() const override { return *edgeList; }
   [[nodiscard]] std::span<const Triangle> triangles() const override { return *triangleList; }
   [[nodiscard]] std::span<const Quad> quads() const override { return *quadList; }
+  [[nodiscard]] std::span<const Tetrahedron> tetrahedra() const override {
+    return *tetrahedronList;
+  }
   [[nodiscard]] std::span<const MeshGroup> groups() const { return groups_; }
 
  protected:

@@ -22,6 +22,10 @@ PLUGIN(io, "0.1.0", "Apache-2.0", "Mesh files, pictures for ParaView, tables.")
       .doc("Reads a surface mesh from a PLY file, text or binary.")
       .domain("Single precision; points keep the file's order.")
       .example("scenes/tutorials/stretch_block.xml");
+  registry.add<stroma::MeshFileLoader<MeshFormat::gmsh>>("MeshGmshLoader")
+      .doc("Reads triangles and tetrahedra from a Gmsh file, format 2, ASCII.")
+      .domain("Points keep the file's order, number and digits; tetrahedra are made positive.")
+      .example("scenes/cornea/cut.xml");
   registry.add<stroma::MeshGroupRoi>("MeshGroupROI")
       .doc("Selects the points and triangles of named groups of a mesh file.")
       .example(scene);

@@ -69,6 +69,7 @@ void Monitor::bind() {
     particles_.resize(static_cast<std::size_t>(count));
     std::iota(particles_.begin(), particles_.end(), 0);
   }
+  chosen_ = particles_.size();
   if (particles_.empty()) {
     error(indices, "monitor-empty", "chooses no particle");
   } else if (const Index last = std::ranges::max(particles_); last >= count) {
@@ -91,6 +92,43 @@ void Monitor::schedule(Schedule& schedule) {
     schedule.add<&Monitor::takeReference>(Stage::Guard, *this, "reference when due");
   }
   Recorder::schedule(schedule);
+}
+
+void Monitor::topologyChanged(const TopologyChange& change) {
+  if (attribute.isSet() || &change.nodes != mechanicalState.get()) return;
+  if (reduce == Reduction::each) return;
+  const std::size_t before = particles_.size();
+  if (indices.isSet()) {
+    change.follow(particles_);
+  } else {
+    for (Index i = change.edit.firstNewNode; i < change.nodes.size(); ++i) particles_.push_back(i);
+  }
+  if (!reference_.empty()) followReference(change, before);
+}
+
+// New nodes were where the surface was; those that come from inside count from where they are now.
+void Monitor::followReference(const TopologyChange& change, std::size_t firstNew) {
+  const auto at = [&](Index particle) {
+    const auto k = std::ranges::find(particles_, particle) - particles_.begin();
+    return reference_[static_cast<std::size_t>(k)];
+  };
+  for (std::size_t k = firstNew; k < particles_.size(); ++k) {
+    const Index i = particles_[k];
+    const NewSurfaceNode& node =
+        change.edit.nodes[static_cast<std::size_t>(i - change.edit.firstNewNode)];
+    Vec3 reference = mechanicalState->x()[static_cast<std::size_t>(i)];
+    if (node.copyOf >= 0) {
+      reference = at(node.copyOf);
+    } else if (node.parents[0] >= 0) {
+      reference = (1 - node.weight) * at(node.parents[0]) + node.weight * at(node.parents[1]);
+    }
+    reference_.push_back(reference);
+  }
+}
+
+void Monitor::topologyRestored() {
+  particles_.resize(chosen_);
+  reference_.resize(std::min(reference_.size(), chosen_));
 }
 
 void Monitor::takeReference(const StepContext& step) {

@@ -5,6 +5,7 @@
 
 #include "components/io/recorder.h"
 #include "core/interfaces/mechanical_state.h"
+#include "core/topology_change.h"
 
 namespace stroma {
 
@@ -58,6 +59,9 @@ struct EnumNames<Reduction> {
 // that the state's solver governs. Vectors are first added up or averaged, then measured: norm with
 // mean is the length of the mean vector; max is the largest measure (by absolute value) that any
 // particle has; each gives every particle its own column.
+//
+// When the body is cut whose surface the state holds, copies of the chosen nodes and nodes on edges
+// between them join, and all new ones where all are recorded; with `each` the columns stay.
 class Monitor final : public Recorder {
  public:
   Monitor() : Recorder(1, true) {}
@@ -81,6 +85,8 @@ class Monitor final : public Recorder {
   void bind() override;
   void start() override;
   void schedule(Schedule& schedule) override;
+  void topologyChanged(const TopologyChange& change) override;
+  void topologyRestored() override;
   void reset() override;
   void stop() override;
   void save(StateWriter& writer) const override;
@@ -100,11 +106,13 @@ class Monitor final : public Recorder {
   [[nodiscard]] Samples sampleEnergy() const;
   [[nodiscard]] std::string unit() const;
   void takeReference(const StepContext& step);
+  void followReference(const TopologyChange& change, std::size_t firstNew);
   [[nodiscard]] Vec3 displacementOf(std::size_t k) const;
   // File with its header and, after a resumption, the rows up to then.
   void open();
 
   std::vector<Index> particles_;
+  std::size_t chosen_ = 0;       // number of particles before any cut
   std::vector<Vec3> reference_;  // positions at `since`, empty before
   std::ofstream out_;
   std::optional<std::uint64_t> resumedAt_;

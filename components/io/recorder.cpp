@@ -105,6 +105,19 @@ void Recorder::fail(std::string reason) {
   error("output", trouble_);
 }
 
+void Recorder::checkFollows(const TopologyChange& change, const MechanicalState& nodes,
+                            const Mesh* elements) {
+  const bool ownNodes = &change.nodes == &nodes, ownElements = &change.surface == elements;
+  if (ownElements && !ownNodes) {
+    fail("'" + change.surface.path() + "' has been cut: its elements have nodes that '" +
+         nodes.path() + "' lacks");
+  } else if (ownNodes && elements && !ownElements && !warnedOfCut_) {
+    warnedOfCut_ = true;
+    warning("export-uncut", "writes the elements of '" + elements->path() + "', but it is '" +
+                                change.surface.path() + "' that has been cut");
+  }
+}
+
 void Recorder::addFile(const std::filesystem::path& file) {
   if (std::ranges::find(files_, file) == files_.end()) files_.push_back(file);
 }

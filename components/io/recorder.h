@@ -3,8 +3,10 @@
 
 #include <optional>
 
+#include "core/interfaces/mesh.h"
 #include "core/interfaces/observer.h"
 #include "core/schedule.h"
+#include "core/topology_change.h"
 
 namespace stroma {
 
@@ -54,6 +56,10 @@ class Recorder : public Observer {
   // Replaces a file at once: readers see the old contents or the new, also after a crash.
   void replaceFile(const std::filesystem::path& file, std::string_view bytes);
   void fail(std::string reason);
+  // A body has been cut: the elements of its surface (none: null) can be written with the surface's
+  // own nodes only. Otherwise the recording fails, or warns that what it shows is not cut.
+  void checkFollows(const TopologyChange& change, const MechanicalState& nodes,
+                    const Mesh* elements);
   void addFile(const std::filesystem::path& file);
   // The step that was recorded last.
   [[nodiscard]] std::optional<std::uint64_t> lastStep() const { return lastStep_; }
@@ -66,6 +72,7 @@ class Recorder : public Observer {
 
   std::vector<std::filesystem::path> files_;
   std::string trouble_;
+  bool warnedOfCut_ = false;
   std::optional<std::uint64_t> lastStep_;
 };
 

@@ -120,6 +120,13 @@ void VtkExporter::start() {
               "), which has not one number or vector for each of " + std::to_string(points) +
               " points");
   }
+  vtk::Picture first{};
+  addElements(first);
+  surface_ = vtk::isSurface(first);
+}
+
+void VtkExporter::topologyChanged(const TopologyChange& change) {
+  checkFollows(change, *mechanicalState, elements_);
 }
 
 void VtkExporter::addStateField(PointField field, vtk::Picture& picture) const {
@@ -147,44 +154,53 @@ void VtkExporter::addStateField(PointField field, vtk::Picture& picture) const {
   picture.fields.push_back(std::move(values));
 }
 
-void VtkExporter::addAttributeField(const Source& source, vtk::Picture& picture) const {
+void VtkExporter::addAttributeField(Source& source, vtk::Picture& picture) {
   vtk::Field field = fieldOf(*source.attribute, picture.points.size());
   field.name = source.name;
-  if (field.components > 0) picture.fields.push_back(std::move(field));
+  if (field.components > 0) {
+    picture.fields.push_back(std::move(field));
+  } else if (!source.missed) {
+    source.missed = true;
+    warning("field-size", "leaves out '" + source.name + "', which has not a value for each of " +
+                              std::to_string(picture.points.size()) + " points");
+  }
 }
 
-vtk::Picture VtkExporter::picture(double time) const {
+void VtkExporter::addElements(vtk::Picture& picture) const {
+  if (!elements_) return;
+  picture.edges = shown(showEdges, elements_->edges());
+  picture.triangles = shown(showTriangles, elements_->triangles());
+  picture.quads = shown(showTriangles, elements_->quads());
+  picture.tetrahedra = shown(showTetrahedra, elements_->tetrahedra());
+  picture.hexahedra = shown(showHexahedra, elements_->hexahedra());
+  // a surface may be listed twice, as quads and as the triangles that they are split into
+  if (!picture.triangles.empty()) picture.quads = {};
+  if (!picture.tetrahedra.empty() || !picture.hexahedra.empty()) {
+    picture.triangles = {}, picture.quads = {};
+  }
+}
+
+vtk::Picture VtkExporter::picture(double time) {
   vtk::Picture picture{};
   picture.points = mechanicalState->x();
   picture.time = time;
-  if (elements_) {
-    picture.edges = shown(showEdges, elements_->edges());
-    picture.triangles = shown(showTriangles, elements_->triangles());
-    picture.quads = shown(showTriangles, elements_->quads());
-    picture.tetrahedra = shown(showTetrahedra, elements_->tetrahedra());
-    picture.hexahedra = shown(showHexahedra, elements_->hexahedra());
-    // a surface may be listed twice, as quads and as the triangles that they are split into
-    if (!picture.triangles.empty()) picture.quads = {};
-    if (!picture.tetrahedra.empty() || !picture.hexahedra.empty()) {
-      picture.triangles = {}, picture.quads = {};
-    }
-  }
+  addElements(picture);
   for (const PointField field : stateFields_) addStateField(field, picture);
-  for (const Source& source : sources_) addAttributeField(source, picture);
+  for (Source& source : sources_) addAttributeField(source, picture);
   return picture;
 }
 
 void VtkExporter::record(double time, std::uint64_t step) {
   const vtk::Picture now = picture(time);
-  const bool surface = vtk::isSurface(now);
-  replaceFile(outputFile(frameSuffix(step) + (surface ? ".vtp" : ".vtu")),
-              surface ? vtk::polyData(now) : vtk::unstructuredGrid(now));
+  const char* extension = surface_ ? ".vtp" : ".vtu";
+  replaceFile(outputFile(frameSuffix(step) + extension),
+              surface_ ? vtk::polyData(now) : vtk::unstructuredGrid(now));
   if (!writes()) return;
   times_.push_back(time);
   steps_.push_back(step);
   std::vector<vtk::Frame> frames;
   for (std::size_t i = 0; i < times_.size(); ++i) {
-    const auto file = outputFile(frameSuffix(steps_[i]) + (surface ? ".vtp" : ".vtu"));
+    const auto file = outputFile(frameSuffix(steps_[i]) + extension);
     frames.push_back({times_[i], file.filename().string()});
   }
   replaceFile(outputFile(".pvd"), vtk::collection(frames));

@@ -23,6 +23,9 @@ struct EnumNames<PointField> {
 // surfaces, .vtu for particles and volumes, and <filename>.pvd, which lists them with their times
 // and is valid after every step. Coordinates are metres. Each point has the named fields of the
 // state (m, m/s, N) and any attribute of the right size of any component.
+//
+// Of a body that has been cut the triangles are those of now; points that have none stay. An
+// attribute that has no value for the new points is left out from then on, with a warning.
 class VtkExporter final : public Recorder {
  public:
   Attribute<std::vector<std::string>> fields{
@@ -52,6 +55,7 @@ class VtkExporter final : public Recorder {
 
   void bind() override;
   void start() override;
+  void topologyChanged(const TopologyChange& change) override;
   void reset() override;
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
@@ -63,18 +67,21 @@ class VtkExporter final : public Recorder {
   struct Source {
     std::string name;
     const AttributeBase* attribute;
+    bool missed = false;  // a warning has said that it is left out
   };
   void addSource(const std::string& text);
   void checkElements();
   void addStateField(PointField field, vtk::Picture& picture) const;
-  void addAttributeField(const Source& source, vtk::Picture& picture) const;
-  [[nodiscard]] vtk::Picture picture(double time) const;
+  void addAttributeField(Source& source, vtk::Picture& picture);
+  void addElements(vtk::Picture& picture) const;
+  [[nodiscard]] vtk::Picture picture(double time);
 
   const Mesh* elements_ = nullptr;
   std::vector<PointField> stateFields_;
   std::vector<Source> sources_;
   std::vector<double> times_;
   std::vector<std::uint64_t> steps_;
+  bool surface_ = false;  // a series keeps its kind of file
 };
 
 }  // namespace stroma

@@ -25,4 +25,26 @@ void MeshTopology::bind() {
   }
 }
 
+void MeshTopology::topologyChanged(const TopologyChange& change) {
+  if (&change.surface != this) return;
+  if (!cut_) {
+    cutPositions_ = position;
+    cutTriangles_ = triangleList;
+    cut_ = true;
+  }
+  for (const NewSurfaceNode& node : change.edit.nodes) cutPositions_.push_back(node.rest);
+  for (const ChangedTriangle& triangle : change.edit.changed) {
+    cutTriangles_[static_cast<std::size_t>(triangle.slot)] = triangle.nodes;
+  }
+  for (const AppendedTriangle& triangle : change.edit.appended) {
+    cutTriangles_.push_back(triangle.nodes);
+  }
+}
+
+void MeshTopology::topologyRestored() {
+  cut_ = false;
+  cutPositions_.clear();
+  cutTriangles_.clear();
+}
+
 }  // namespace stroma

@@ -2,11 +2,16 @@
 #pragma once
 
 #include "core/interfaces/mesh.h"
+#include "core/topology_change.h"
 
 namespace stroma {
 
 // Points and elements given by the scene, mostly by src="@loader". Every element must name existing
 // points, each once. With tetrahedra, each point stands for a quarter of those around it.
+//
+// When a body is cut whose surface this is, points and triangles follow; the attributes keep what
+// the scene gave, and spans of that stay valid. Other elements are not divided: a topology that has
+// been cut has none.
 class MeshTopology final : public Topology {
  public:
   Attribute<std::vector<Vec3>> position{
@@ -34,18 +39,33 @@ class MeshTopology final : public Topology {
       {.autolink = true, .aliases = "hexas"}};
 
   void bind() override;
-  [[nodiscard]] ConstVec3Span positions() const override { return *position; }
-  [[nodiscard]] std::span<const Edge> edges() const override { return *edgeList; }
-  [[nodiscard]] std::span<const Triangle> triangles() const override { return *triangleList; }
-  [[nodiscard]] std::span<const Quad> quads() const override { return *quadList; }
-  [[nodiscard]] std::span<const Tetrahedron> tetrahedra() const override {
-    return *tetrahedronList;
+  void topologyChanged(const TopologyChange& change) override;
+  void topologyRestored() override;
+  [[nodiscard]] ConstVec3Span positions() const override {
+    return cut_ ? ConstVec3Span(cutPositions_) : ConstVec3Span(*position);
   }
-  [[nodiscard]] std::span<const Hexahedron> hexahedra() const override { return *hexahedronList; }
+  [[nodiscard]] std::span<const Triangle> triangles() const override {
+    return cut_ ? std::span<const Triangle>(cutTriangles_) : *triangleList;
+  }
+  [[nodiscard]] std::span<const Edge> edges() const override { return uncut(edgeList); }
+  [[nodiscard]] std::span<const Quad> quads() const override { return uncut(quadList); }
+  [[nodiscard]] std::span<const Tetrahedron> tetrahedra() const override {
+    return uncut(tetrahedronList);
+  }
+  [[nodiscard]] std::span<const Hexahedron> hexahedra() const override {
+    return uncut(hexahedronList);
+  }
   [[nodiscard]] std::span<const double> volumes() const override { return volumes_; }
 
  private:
+  template <class Element>
+  [[nodiscard]] std::span<const Element> uncut(const Attribute<std::vector<Element>>& list) const {
+    return cut_ ? std::span<const Element>() : *list;
+  }
   std::vector<double> volumes_;
+  bool cut_ = false;
+  std::vector<Vec3> cutPositions_;  // once it has been cut
+  std::vector<Triangle> cutTriangles_;
 };
 
 }  // namespace stroma

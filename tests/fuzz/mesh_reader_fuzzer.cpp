@@ -24,7 +24,7 @@ void requireIndices(const std::vector<Element>& elements, std::size_t points) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  const auto format = static_cast<stroma::MeshFormat>(data[0] % 3);
+  const auto format = static_cast<stroma::MeshFormat>(data[0] % 4);
   const bool triangulate = data[0] < 128;
   const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
   const stroma::MeshData mesh = stroma::parseMesh(bytes, format, triangulate);
@@ -33,6 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   requireIndices(mesh.edges, points);
   requireIndices(mesh.triangles, points);
   requireIndices(mesh.quads, points);
+  requireIndices(mesh.tetrahedra, points);
   require(mesh.normals.empty() || mesh.normals.size() == points);
   require(mesh.texcoords.empty() || mesh.texcoords.size() == points);
   for (const stroma::MeshGroup& group : mesh.groups) {

@@ -5,8 +5,10 @@
 #include "components/collision/bvh_collision_model.h"
 #include "components/collision/grip_contact.h"
 #include "components/collision/penalty_contact.h"
+#include "components/topology/mesh_topology.h"
 #include "tests/components/collision/random_surface.h"
 #include "tests/components/tools/tool_scene.h"
+#include "tests/components/topology/hand_made_cut.h"
 
 namespace stroma::test {
 
@@ -90,6 +92,8 @@ inline Loaded tryCollision(const std::string& content) {
   registerTools(registry);
   registry.add<WrittenMesh>("WrittenMesh");
   registry.add<Between>("Between");
+  registry.add<MeshTopology>("MeshTopology");
+  registry.add<Riding>("Riding");
   registry.add<BVHCollisionModel>("BVHCollisionModel");
   registry.add<PenaltyContactForceField>("PenaltyContactForceField");
   registry.add<GripContact>("GripContact");

@@ -465,11 +465,17 @@ TEST(CollisionModel, followsAChangeOfTheTopology) {
   const Index touched = toolOf(s).contacts()[0].triangle;
   triangles[static_cast<std::size_t>(touched)] = {0, 0, 0};
   mesh.triangle.set(triangles);
-  s.find<BVHCollisionModel>().topologyChanged(std::span(&touched, 1));
+  SurfaceEdit edit;
+  edit.firstNewNode = s.find<MechanicalObject>().size();
+  edit.firstNewTriangle = static_cast<Index>(triangles.size());
+  edit.changed = {{touched, {0, 0, 0}}};
+  auto& nodes = s.find<MechanicalObject>();
+  s.find<BVHCollisionModel>().topologyChanged({nodes, nodes, mesh, edit, NoBarrier()});
   s.run(1);
   EXPECT_EQ(toolOf(s).contactCount, 0);
   // the whole surface is back after a reset
   mesh.triangle.set(grid(1, 4).triangles);
+  s.find<BVHCollisionModel>().topologyRestored();
   s.scene->reset();
   s.run(6);
   EXPECT_EQ(toolOf(s).contactCount, 1);

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <numeric>
 
-#include "components/collision/surface_links.h"
 #include "components/collision/triangle_tree.h"
+#include "core/surface_links.h"
 #include "tests/components/collision/random_surface.h"
 
 namespace stroma::test {

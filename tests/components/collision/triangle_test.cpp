@@ -2,7 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "components/collision/contact_point.h"
-#include "components/collision/surface_links.h"
+#include "components/collision/triangle_geometry.h"
+#include "core/surface_links.h"
 #include "tests/components/collision/random_surface.h"
 
 namespace stroma::test {
