@@ -12,9 +12,31 @@
 namespace stroma {
 namespace {
 
-constexpr double rowAdvance = 0.5, columnWidth = 0.75, leastMotion = 0.05;  // of the spacing
+// Of the spacing.
+constexpr double rowAdvance = 0.5, columnWidth = 0.75, leastMotion = 0.05, leastPose = 0.02,
+                 cornerOff = 0.05, leastWidth = 0.1;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+double offSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 d = b - a;
+  const double length2 = d.squaredNorm();
+  const double s = length2 > 0 ? std::clamp(d.dot(p - a) / length2, 0.0, 1.0) : 0.0;
+  return (p - a - s * d).norm();
+}
+
+// How far a pose has come from a row: the largest distance of its points from the row's line. A
+// blade that slides back along itself has gone nowhere.
+double motion(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+  double longest = 0;
+  for (const Vec3& p : to) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k + 1 < from.size(); ++k)
+      nearest = std::min(nearest, offSegment(p, from[k], from[k + 1]));
+    longest = std::max(longest, nearest);
+  }
+  return longest;
+}
 
 bool hasArea(const RestTriangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]).squaredNorm() > 0; }
 
@@ -22,7 +44,7 @@ bool hasArea(const RestTriangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]).sq
 
 // === Sheet
 
-CutSheet::CutSheet(double spacing) : spacing_(spacing) {
+CutSheet::CutSheet(double spacing, double longest) : spacing_(spacing), longest_(longest) {
   if (!(spacing > 0) || !std::isfinite(spacing))
     throw std::invalid_argument("the spacing of a cut must be positive");
 }
@@ -45,11 +67,28 @@ std::vector<Vec3> CutSheet::resampled(ConstVec3Span blade) const {
   return points;
 }
 
-double CutSheet::advance() const {
-  double longest = 0;
-  for (std::size_t k = 0; k < latest_.size(); ++k)
-    longest = std::max(longest, (latest_[k] - rows_.back()[k]).norm());
-  return longest;
+// The pose since the last row that lies farthest off the straight way to `pose`; how many there are
+// if none lies far off.
+std::size_t CutSheet::cornerBefore(const std::vector<Vec3>& pose) const {
+  std::size_t corner = since_.size();
+  double farthest = cornerOff * spacing_;
+  for (std::size_t s = 0; s < since_.size(); ++s)
+    for (std::size_t k = 0; k < pose.size(); ++k)
+      if (const double off = offSegment(since_[s][k], rows_.back()[k], pose[k]); off > farthest) {
+        farthest = off;
+        corner = s;
+      }
+  return corner;
+}
+
+// A blade that plunges along its own edge before it has cut anything sets in where it comes to.
+void CutSheet::slideIn() {
+  if (rows_.size() != 2) return;
+  double area = 0, length = 0;
+  for (const RestTriangle& t : strip(0)) area += 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
+  for (std::size_t k = 1; k < rows_[1].size(); ++k)
+    length += (rows_[1][k] - rows_[1][k - 1]).norm();
+  if (area < leastWidth * spacing_ * length) rows_.erase(rows_.begin());
 }
 
 Index CutSheet::addPose(ConstVec3Span blade) {
@@ -60,32 +99,51 @@ Index CutSheet::addPose(ConstVec3Span blade) {
     double length = 0;
     for (std::size_t k = 1; k < blade.size(); ++k) length += (blade[k] - blade[k - 1]).norm();
     closed_ = blade.size() > 3 && (blade.front() - blade.back()).norm() <= 1e-9 * length;
+    length = std::max(length, longest_);
     columns_ =
         std::max<Index>(2, 1 + static_cast<Index>(std::ceil(length / (columnWidth * spacing_))));
-    latest_ = resampled(blade);
-    rows_.push_back(latest_);
+    rows_.push_back(resampled(blade));
+    ++poses_;
     return 1;
   }
-  latest_ = resampled(blade);
-  const double moved = advance();
+  std::vector<Vec3> pose = resampled(blade);
+  if (motion(since_.empty() ? rows_.back() : since_.back(), pose) < leastPose * spacing_) return 0;
+  ++poses_;
+  const std::size_t before = rows_.size();
+  if (const std::size_t corner = cornerBefore(pose); corner < since_.size()) {
+    rows_.push_back(since_[corner]);
+    slideIn();
+    since_.erase(since_.begin(), since_.begin() + static_cast<std::ptrdiff_t>(corner) + 1);
+  }
   // a hair less, so that poses at exactly this pitch are all taken
-  if (moved < (rowAdvance - 1e-6) * spacing_) return 0;
-  const auto rows =
+  const double moved = motion(rows_.back(), pose);
+  if (moved < (rowAdvance - 1e-6) * spacing_) {
+    since_.push_back(std::move(pose));
+    return static_cast<Index>(rows_.size() - before);
+  }
+  const auto count =
       std::max<Index>(1, static_cast<Index>(std::ceil(moved / (columnWidth * spacing_))));
   const std::vector<Vec3> from = rows_.back();
-  for (Index r = 1; r <= rows; ++r) {
+  for (Index r = 1; r <= count; ++r) {
     std::vector<Vec3> row(from.size());
-    const double u = static_cast<double>(r) / rows;
+    const double u = static_cast<double>(r) / count;
     for (std::size_t k = 0; k < row.size(); ++k)
-      row[k] = r == rows ? latest_[k] : Vec3((1 - u) * from[k] + u * latest_[k]);
+      row[k] = r == count ? pose[k] : Vec3((1 - u) * from[k] + u * pose[k]);
     rows_.push_back(std::move(row));
   }
-  return rows;
+  since_.clear();
+  slideIn();
+  return static_cast<Index>(rows_.size() - before);
+}
+
+double CutSheet::distanceToFront(ConstVec3Span blade) const {
+  return motion(rows_.back(), resampled(blade));
 }
 
 Index CutSheet::finish() {
-  if (rows_.empty() || advance() < leastMotion * spacing_) return 0;
-  rows_.push_back(latest_);
+  if (since_.empty() || motion(rows_.back(), since_.back()) < leastMotion * spacing_) return 0;
+  rows_.push_back(since_.back());
+  since_.clear();
   return 1;
 }
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "components/cutting/surface_edit.h"
+#include "core/topology_change.h"
 #include "core/types.h"
 
 namespace stroma {
@@ -16,18 +16,24 @@ class CutSheet {
  public:
   // `spacing`: local size of the body's mesh [m]. Rows are about half of it apart, columns at most
   // three quarters. A polyline whose ends coincide is a closed blade (a trephine's ring).
-  explicit CutSheet(double spacing);
+  // `longest`: length to which the polyline may grow [m]; that of the first pose if shorter.
+  explicit CutSheet(double spacing, double longest = 0);
 
   // Adds a pose and returns the number of new rows: none until the blade has moved by half the
-  // spacing since the last row (smaller motions accumulate), several for a fast blade. Throws
+  // spacing since the last row (smaller motions accumulate) or turned a corner, several for a fast
+  // blade. Poses nearer than 0.02 of the spacing to the one before are dropped. Throws
   // std::invalid_argument for fewer than two points or a number that is not finite.
   Index addPose(ConstVec3Span blade);
+  // How far a pose has come from the last row [m].
+  [[nodiscard]] double distanceToFront(ConstVec3Span blade) const;
   // Adds a row where the blade is now, unless it has moved by less than 0.05 of the spacing.
   Index finish();
 
   [[nodiscard]] double spacing() const { return spacing_; }
   [[nodiscard]] bool closed() const { return closed_; }
   [[nodiscard]] Index rowCount() const { return static_cast<Index>(rows_.size()); }
+  // Poses that were not dropped.
+  [[nodiscard]] Index poseCount() const { return poses_; }
   [[nodiscard]] Index columnCount() const { return columns_; }
   [[nodiscard]] ConstVec3Span row(Index r) const { return rows_[static_cast<std::size_t>(r)]; }
   // Triangles between row r and row r + 1, without those that have no area.
@@ -35,13 +41,14 @@ class CutSheet {
 
  private:
   [[nodiscard]] std::vector<Vec3> resampled(ConstVec3Span blade) const;
-  [[nodiscard]] double advance() const;
+  void slideIn();
+  [[nodiscard]] std::size_t cornerBefore(const std::vector<Vec3>& pose) const;
 
-  double spacing_;
+  double spacing_, longest_;
   bool closed_ = false;
-  Index columns_ = 0;
+  Index columns_ = 0, poses_ = 0;
   std::vector<std::vector<Vec3>> rows_;
-  std::vector<Vec3> latest_;
+  std::vector<std::vector<Vec3>> since_;  // poses since the last row
 };
 
 // A part of a sheet with what cutting needs around it: a skirt that prolongs the swept part beyond

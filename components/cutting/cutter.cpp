@@ -36,27 +36,75 @@ void Cutter::addVertex(Index v) {
   onSwept_.push_back(-1);
 }
 
-SurfaceEdit Cutter::advance(ConstVec3Span blade) {
+SurfaceEdit Cutter::advance(ConstVec3Span blade, double longest) {
   if (!sheet_) {
-    auto sheet = std::make_unique<CutSheet>(spacing_);
-    sheet->addPose(blade);
-    sheet_ = std::move(sheet);
-    start_ = 0;
-    setIn_ = step_ + 1;
+    begin(blade, longest);
     return {};
   }
-  const Index before = sheet_->rowCount();
-  sheet_->addPose(blade);
+  if (inOwnSlit(blade)) {
+    withinSlit_.assign(blade.begin(), blade.end());
+    return {};
+  }
   std::vector<RestTriangle> swept;
-  for (Index row = before; row < sheet_->rowCount(); ++row) cutStrip(row, false, false, swept);
+  if (!withinSlit_.empty() && sheet_->distanceToFront(withinSlit_) > spacing_) {
+    const std::vector<Vec3> from = std::move(withinSlit_);
+    end(swept);
+    begin(from, longest);
+  }
+  withinSlit_.clear();
+  sweepTo(blade, swept);
+  return takeEdit(swept);
+}
+
+void Cutter::begin(ConstVec3Span blade, double longest) {
+  auto sheet = std::make_unique<CutSheet>(spacing_, longest);
+  sheet->addPose(blade);
+  sheet_ = std::move(sheet);
+  slit_.reset();
+  withinSlit_.clear();
+  slitEnd_ = start_ = 0;
+  setIn_ = step_ + 1;
+  ++poses_;
+}
+
+bool Cutter::inOwnSlit(ConstVec3Span blade) {
+  constexpr Index longest = 24;   // rows that are remembered
+  constexpr double width = 0.15;  // of the spacing, to each side
+  const Index last = sheet_->rowCount() - 1;
+  if (last < 1) return false;
+  if (slitEnd_ != last) {
+    slit_ = std::make_unique<SheetWindow>(*sheet_, std::max<Index>(0, last - longest), last, -1,
+                                          spacing_);
+    slitEnd_ = last;
+  }
+  return std::ranges::all_of(blade, [&](const Vec3& x) {
+    return slit_->nearest(x, width * spacing_, slit_->swept).distance <= width * spacing_;
+  });
+}
+
+void Cutter::sweepTo(ConstVec3Span blade, std::vector<RestTriangle>& sheetTriangles) {
+  const Index before = sheet_->rowCount(), known = sheet_->poseCount();
+  sheet_->addPose(blade);
+  poses_ += sheet_->poseCount() - known;
+  for (Index row = before; row < sheet_->rowCount(); ++row)
+    cutStrip(row, false, false, sheetTriangles);
+}
+
+SurfaceEdit Cutter::takeEdit(std::span<const RestTriangle> sheetTriangles) {
   SurfaceEdit edit = complex_.takeEdit();
-  edit.cutFacets.insert(edit.cutFacets.end(), swept.begin(), swept.end());
+  edit.cutFacets.insert(edit.cutFacets.end(), sheetTriangles.begin(), sheetTriangles.end());
   return edit;
 }
 
-SurfaceEdit Cutter::finish() {
+SurfaceEdit Cutter::finish(ConstVec3Span blade) {
   if (!sheet_) return {};
   std::vector<RestTriangle> swept;
+  if (!blade.empty() && !inOwnSlit(blade)) sweepTo(blade, swept);
+  end(swept);
+  return takeEdit(swept);
+}
+
+void Cutter::end(std::vector<RestTriangle>& swept) {
   const bool moved = sheet_->finish() > 0;
   if (sheet_->rowCount() > 1) {
     if (moved) cutStrip(sheet_->rowCount() - 1, false, false, swept);
@@ -70,9 +118,6 @@ SurfaceEdit Cutter::finish() {
   sheet_.reset();
   waiting_.clear();
   refusedRows_.clear();
-  SurfaceEdit edit = complex_.takeEdit();
-  edit.cutFacets.insert(edit.cutFacets.end(), swept.begin(), swept.end());
-  return edit;
 }
 
 // A strip that has been cut before, to the bit, needs nothing: a cut repeated is no cut.

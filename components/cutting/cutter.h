@@ -21,6 +21,9 @@
 // Without subdivision (the cornea paper's first variant) no edge is split, and facets are separated
 // whose two simplices have their centroids on different sides of the swept part.
 //
+// A blade that moves in the slit it has cut, to and fro, sweeps nothing new; where it leaves the
+// slit beside the front it begins a new sheet.
+//
 // The front runs at most half a spacing ahead of the last strip; `finish` brings the cut up to it.
 #pragma once
 
@@ -55,12 +58,17 @@ class Cutter {
 
   // Next pose of the blade's edge, in the rest configuration. The first pose after construction or
   // after `finish` sets the blade in. Returns what has changed, often nothing (see CutSheet).
-  SurfaceEdit advance(ConstVec3Span blade);
-  // Ends the cut where the blade is.
-  SurfaceEdit finish();
+  // `longest`: length to which the edge may grow [m] where only the part of it near the body is
+  // given.
+  SurfaceEdit advance(ConstVec3Span blade, double longest = 0);
+  // Ends the cut where the blade is, at a last pose if one is given.
+  SurfaceEdit finish(ConstVec3Span blade = {});
 
   [[nodiscard]] bool cutting() const { return sheet_ != nullptr; }
   [[nodiscard]] double spacing() const { return spacing_; }
+  // Poses so far that a cut depends on; the others were too near to the one before, or lay in the
+  // slit (of these the last one counts if the blade then leaves it).
+  [[nodiscard]] Index poseCount() const { return poses_; }
   // The sheet of the cut that is going on, null if none.
   [[nodiscard]] const CutSheet* sheet() const { return sheet_.get(); }
 
@@ -72,6 +80,11 @@ class Cutter {
   };
   static constexpr Index windowRows = 4;
 
+  void begin(ConstVec3Span blade, double longest);
+  void end(std::vector<RestTriangle>& sheetTriangles);
+  [[nodiscard]] bool inOwnSlit(ConstVec3Span blade);
+  void sweepTo(ConstVec3Span blade, std::vector<RestTriangle>& sheetTriangles);
+  [[nodiscard]] SurfaceEdit takeEdit(std::span<const RestTriangle> sheetTriangles);
   [[nodiscard]] std::uint64_t stripKey(Index row, bool first, bool last) const;
   void cutStrip(Index row, bool last, bool replay, std::vector<RestTriangle>& sheetTriangles);
   void findNear(const SheetWindow& window);
@@ -101,6 +114,10 @@ class Cutter {
   CutterOptions options_;
   HashGrid grid_;
   std::unique_ptr<CutSheet> sheet_;
+  std::unique_ptr<SheetWindow> slit_;  // its latest rows, up to row slitEnd_
+  Index slitEnd_ = 0;
+  Index poses_ = 0;
+  std::vector<Vec3> withinSlit_;                // the last pose if it lay there, else empty
   Index start_ = 0;                             // row where the blade set in or turned back
   Index step_ = 0, setIn_ = 0, firstStep_ = 0;  // steps: now, first of the cut, of the window
   std::vector<Index> onSheet_;  // per vertex: last step in which it was on the sheet or its skirt

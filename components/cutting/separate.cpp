@@ -248,7 +248,9 @@ std::vector<TouchedNode> SimplicialComplex::touchedNodes(std::span<const Index> 
     if (a.node != b.node) return a.node < b.node;
     return a.size != b.size ? a.size > b.size : a.simplex < b.simplex;
   });
-  constexpr double inward = 0.02;  // of the way to the centroid
+  // of the way to the centroid: the walls of a solid are exact; the sheet that cuts an open one may
+  // pass its seam's nodes on either side, as far as vertices snap to it
+  const double inward = dimension_ == 3 ? 0.02 : 0.9;
   std::vector<TouchedNode> touched;
   for (const Candidate& c : candidates)
     if (touched.empty() || touched.back().node != c.node)

@@ -25,7 +25,7 @@
 #include <span>
 #include <vector>
 
-#include "components/cutting/surface_edit.h"
+#include "core/topology_change.h"
 #include "core/types.h"
 
 namespace stroma {

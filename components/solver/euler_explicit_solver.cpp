@@ -47,7 +47,7 @@ void EulerExplicitSolver::start() {
 
 void EulerExplicitSolver::reset() {
   stability_.forget();
-  changed_ = false;
+  changed_ = cut_ = false;
   interval_ = 1;
   nextEstimate_ = 2;
   substepChanges.set(0);
@@ -74,8 +74,11 @@ void EulerExplicitSolver::estimate(double time, double dt, int iterations) {
 void EulerExplicitSolver::reestimate(const StepContext& step) {
   const int substepsBefore = currentSubsteps;
   const double before = stableStep;
+  if (cut_) stability_.disturb(system());
   estimate(step.time, step.dt, changed_ ? iterationsAtStart : iterationsToFollow);
-  changed_ = false;
+  // a mode that the cut has made needs some estimates to come out
+  if (cut_) interval_ = 1;
+  changed_ = cut_ = false;
   if (currentSubsteps != substepsBefore) substepChanges.set(substepChanges + 1);
   const double change = std::abs(stableStep - before) / before;
   if (change > quickChange)
@@ -87,7 +90,7 @@ void EulerExplicitSolver::reestimate(const StepContext& step) {
 }
 
 void EulerExplicitSolver::integrate(const StepContext& step) {
-  if (changed_ || (substeps == 0 && step.step >= nextEstimate_)) reestimate(step);
+  if (changed_ || (substeps == 0 && (cut_ || step.step >= nextEstimate_))) reestimate(step);
   const double h = step.dt / currentSubsteps;
   for (int k = 0; k < currentSubsteps; ++k) substep(step.time + k * h, h);
 }
@@ -130,7 +133,7 @@ void EulerExplicitSolver::save(StateWriter& writer) const {
   writer.write("currentSubsteps", currentSubsteps.value());
   writer.write("substepChanges", substepChanges.value());
   writer.write("stableStep", stableStep.value());
-  writer.write("changed", static_cast<int>(changed_));
+  writer.write("changed", (changed_ ? 1 : 0) | (cut_ ? 2 : 0));
   writer.write("interval", interval_);
   writer.write("nextEstimate", nextEstimate_);
   stability_.save(writer);
@@ -142,7 +145,7 @@ void EulerExplicitSolver::restore(StateReader& reader) {
   if (reader.read("currentSubsteps", count)) currentSubsteps.set(count);
   if (reader.read("substepChanges", changes)) substepChanges.set(changes);
   if (reader.read("stableStep", stable)) stableStep.set(stable);
-  if (reader.read("changed", changed)) changed_ = changed != 0;
+  if (reader.read("changed", changed)) changed_ = (changed & 1) != 0, cut_ = (changed & 2) != 0;
   int interval = 1;
   std::uint64_t next = 2;
   if (reader.read("interval", interval)) interval_ = interval;

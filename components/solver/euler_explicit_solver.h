@@ -55,6 +55,7 @@ class EulerExplicitSolver final : public Integrator {
   void restore(StateReader& reader) override;
   void integrate(const StepContext& step) override;
   void systemChanged() override { changed_ = true; }
+  void topologyChanged(const TopologyChange&) override { cut_ = true; }
   [[nodiscard]] bool hasSubsteps() const override { return substeps != 1; }
 
  private:
@@ -64,9 +65,9 @@ class EulerExplicitSolver final : public Integrator {
 
   Limiter capped_{this, "maxSubsteps",
                   "estimates that asked for more than `maxSubsteps` sub-steps"};
-  bool changed_ = false;            // since the last estimate
-  int interval_ = 1;                // steps between estimates now
-  std::uint64_t nextEstimate_ = 2;  // step before which the next one is made
+  bool changed_ = false, cut_ = false;  // since the last estimate
+  int interval_ = 1;                    // steps between estimates now
+  std::uint64_t nextEstimate_ = 2;      // step before which the next one is made
   StabilityEstimate stability_;
   std::vector<Vec3> heldForce_;  // forces on held particles, put back after the update
 };

@@ -26,6 +26,7 @@ void SparseLDLSolver::start() {
 void SparseLDLSolver::reset() {
   holdsFactor_ = isShifted_ = false;
   restored_.clear();
+  restoredOuter_.clear();
 }
 
 LinearSolution SparseLDLSolver::solve(const SystemMatrix& matrix, ConstVec3Span b, Vec3Span x) {
@@ -54,14 +55,35 @@ LinearSolution SparseLDLSolver::solve(const SystemMatrix& matrix, ConstVec3Span 
   return result.solution;
 }
 
+void SparseLDLSolver::topologyChanged(const TopologyChange&) { cut_ = true; }
+
+void SparseLDLSolver::topologyRestored() {
+  analyzed_ = cut_ = false;
+  reset();
+}
+
+void SparseLDLSolver::analyze(const SystemMatrix& matrix) {
+  bool complete = false;
+  matrix_ = BlockMatrix(matrix.system.pattern(complete));
+  lower_ = matrix_.lower();
+  factor_.analyzePattern(lower_);
+  analyzed_ = true;
+  cut_ = false;
+}
+
 void SparseLDLSolver::prepare(const SystemMatrix& matrix) {
-  if (!analyzed_) {
-    bool complete = false;
-    matrix_ = BlockMatrix(matrix.system.pattern(complete));
-    lower_ = matrix_.lower();
+  if (!restoredOuter_.empty()) {
+    lower_ =
+        Eigen::Map<const Sparse>(static_cast<Eigen::Index>(restoredOuter_.size()) - 1,
+                                 static_cast<Eigen::Index>(restoredOuter_.size()) - 1,
+                                 static_cast<Eigen::Index>(restored_.size()), restoredOuter_.data(),
+                                 restoredInner_.data(), restored_.data());
     factor_.analyzePattern(lower_);
-    analyzed_ = true;
+    analyzed_ = cut_ = true;
+    restoredOuter_.clear();
+    restoredInner_.clear();
   }
+  if (!analyzed_) analyze(matrix);
   if (restored_.empty()) return;
   if (static_cast<Eigen::Index>(restored_.size()) == lower_.nonZeros()) {
     std::ranges::copy(restored_, lower_.valuePtr());
@@ -79,6 +101,7 @@ double SparseLDLSolver::residualOf(const SystemMatrix& matrix, ConstVec3Span b, 
 
 // False when no shift makes the matrix positive definite.
 bool SparseLDLSolver::factorize(const SystemMatrix& matrix) {
+  if (cut_) analyze(matrix);
   matrix.assemble(matrix_);
   lower_ = matrix_.lower();
   factorizations.set(factorizations + 1);
@@ -117,6 +140,15 @@ void SparseLDLSolver::save(StateWriter& writer) const {
       waiting ? restored_.data() : lower_.valuePtr(),
       waiting ? restored_.size() : static_cast<std::size_t>(holdsFactor_ ? lower_.nonZeros() : 0));
   writer.write("factorised", entries);
+  if (!waiting && cut_ && holdsFactor_) {  // of a body that was less cut than it is now
+    writer.write(
+        "factorised.outer",
+        std::span<const int>(lower_.outerIndexPtr(), static_cast<std::size_t>(lower_.cols()) + 1));
+    writer.write("factorised.inner", std::span<const int>(lower_.innerIndexPtr(), entries.size()));
+  } else if (waiting && !restoredOuter_.empty()) {
+    writer.write("factorised.outer", std::span<const int>(restoredOuter_));
+    writer.write("factorised.inner", std::span<const int>(restoredInner_));
+  }
 }
 
 void SparseLDLSolver::restore(StateReader& reader) {
@@ -126,6 +158,12 @@ void SparseLDLSolver::restore(StateReader& reader) {
   if (reader.read("factorizations", made)) factorizations.set(made);
   restored_.resize(reader.count<double>("factorised"));
   if (!reader.read("factorised", std::span(restored_))) restored_.clear();
+  restoredOuter_.resize(reader.count<int>("factorised.outer"));
+  restoredInner_.resize(reader.count<int>("factorised.inner"));
+  const bool whole = reader.read("factorised.outer", std::span(restoredOuter_)) &&
+                     reader.read("factorised.inner", std::span(restoredInner_)) &&
+                     restoredInner_.size() == restored_.size();
+  if (!whole) restoredOuter_.clear();
 }
 
 }  // namespace stroma

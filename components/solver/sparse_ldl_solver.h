@@ -17,6 +17,9 @@ namespace stroma {
 // added, ten times as much until all pivots are positive; the shifted system is then solved and
 // counted as a limiter.
 //
+// A cut changes which blocks there are. A factor from before it goes on as a preconditioner like
+// any other that has grown old; the next one is made of the blocks there are then.
+//
 // Checkpoints hold the entries of the matrix that was factorised, so that a run resumes with the
 // same factor.
 class SparseLDLSolver final : public LinearSolver, private Preconditioner {
@@ -53,6 +56,8 @@ class SparseLDLSolver final : public LinearSolver, private Preconditioner {
 
   void start() override;
   void reset() override;
+  void topologyChanged(const TopologyChange& change) override;
+  void topologyRestored() override;
   LinearSolution solve(const SystemMatrix& matrix, ConstVec3Span b, Vec3Span x) override;
   void save(StateWriter& writer) const override;
   void restore(StateReader& reader) override;
@@ -60,6 +65,7 @@ class SparseLDLSolver final : public LinearSolver, private Preconditioner {
  private:
   using Sparse = Eigen::SparseMatrix<double>;
   void prepare(const SystemMatrix& matrix);
+  void analyze(const SystemMatrix& matrix);
   [[nodiscard]] bool factorize(const SystemMatrix& matrix);
   [[nodiscard]] double residualOf(const SystemMatrix& matrix, ConstVec3Span b, ConstVec3Span x);
   [[nodiscard]] bool factorIsPositive();
@@ -70,9 +76,11 @@ class SparseLDLSolver final : public LinearSolver, private Preconditioner {
   Limiter shifted_{this, "shifted", "solves of a matrix made positive definite by a shift"};
   ConjugateGradient cg_;
   bool analyzed_ = false, holdsFactor_ = false, isShifted_ = false;
+  bool cut_ = false;  // since the pattern was found
   BlockMatrix matrix_;
   Sparse lower_;                  // what was factorised
   std::vector<double> restored_;  // its entries in a checkpoint, until the pattern is known
+  std::vector<int> restoredOuter_, restoredInner_;  // and the pattern, where cuts have changed it
   BlockFactor factor_;
   PackedFactor packed_;
   std::vector<Vec3> residual_;

@@ -72,6 +72,17 @@ void StabilityEstimate::update(const System& system, double rayleighMass, double
              largestEigenvalue(system, 0, 1, iterations, dampingVector_);
 }
 
+void StabilityEstimate::disturb(const System& system) {
+  constexpr double part = 0.3;
+  for (std::vector<Vec3>* vector : {&stiffnessVector_, &dampingVector_}) {
+    if (vector->size() != static_cast<std::size_t>(system.size())) continue;
+    const std::vector<Vec3> all = startVector(system);
+    const double size = massNorm(system, *vector), other = massNorm(system, all);
+    if (size > 0 && other > 0)
+      flat(Vec3Span(*vector)) += part * size / other * flat(ConstVec3Span(all));
+  }
+}
+
 double StabilityEstimate::largestStep() const {
   if (stiffness_ <= 0 && damping_ <= 0) return std::numeric_limits<double>::infinity();
   return 4 / (damping_ + std::sqrt(damping_ * damping_ + 4 * stiffness_));

@@ -20,6 +20,9 @@ class StabilityEstimate {
   void update(const System& system, double rayleighMass, double rayleighStiffness, int iterations);
   // Largest stable step (s), infinite when nothing moves.
   [[nodiscard]] double largestStep() const;
+  // Something local has changed, such as by a cut: the modes found before get a part of every
+  // other, so that one which has grown stiffer shows in few products.
+  void disturb(const System& system);
   void forget() { stiffnessVector_.clear(), dampingVector_.clear(); }
 
   void save(StateWriter& writer) const;

@@ -4,6 +4,7 @@
 #include "components/tools/probe_tool.h"
 #include "components/tools/scalpel_tool.h"
 #include "components/tools/scripted_device.h"
+#include "components/tools/trephine_tool.h"
 #include "core/plugin.h"
 
 PLUGIN(tools, "0.1.0", "Apache-2.0", "Rigid instruments and a device that follows a script.")
@@ -21,6 +22,10 @@ PLUGIN(tools, "0.1.0", "Apache-2.0", "Rigid instruments and a device that follow
       .doc("A pointed blade that cuts with one edge; sample points on its central axis.")
       .domain("A flat rigid blade without thickness.")
       .example("scenes/tutorials/tools.xml");
+  registry.add<TrephineTool>("TrephineTool")
+      .doc("A tube with a sharp rim, which cuts a circle.")
+      .domain("A rigid rim without thickness.")
+      .example("scenes/cornea/trephine.xml");
   registry.add<KeratomeTool>("KeratomeTool")
       .doc("A slit knife: a flat arrow head that cuts with both sides.")
       .domain("A flat rigid blade without thickness.")

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/interfaces/observer.h"
+#include "core/interfaces/topology_modifier.h"
 #include "core/json.h"
 #include "core/parallel.h"
 #include "core/traverse.h"
@@ -64,10 +65,11 @@ void RunReport::collectFrom(Scene& from) {
     }
     const auto* observer = dynamic_cast<const Observer*>(&component);
     if (!observer) return;
+    auto& values = dynamic_cast<const TopologyModifier*>(&component) ? cuts : monitors;
     for (const auto& [name, value] : observer->lastValues()) {
-      // two monitors may use the same name
+      // two observers may use the same name
       const bool isFree = taken.insert(name).second;
-      monitors.emplace_back(isFree ? name : component.path() + "." + name, value);
+      values.emplace_back(isFree ? name : component.path() + "." + name, value);
     }
     for (const auto& file : observer->files()) files.push_back(file.string());
   });
@@ -95,6 +97,9 @@ std::string RunReport::text() const {
   std::vector<std::pair<std::string, std::string>> rows;
   for (const auto& [name, value] : monitors) rows.emplace_back(name, rounded(value));
   text += table("monitors, last values (SI units)", rows);
+  rows.clear();
+  for (const auto& [name, value] : cuts) rows.emplace_back(name, rounded(value));
+  text += table("what was cut (SI units)", rows);
   rows.clear();
   for (const auto& [name, count] : limiters) rows.emplace_back(name, std::to_string(count));
   text += table("limiters that acted, and how often", rows);
@@ -127,6 +132,7 @@ std::string RunReport::json() const {
   object("limiters", limiters);
   json.member("state_hash", stateHash);
   object("monitors", monitors);
+  for (const auto& [name, value] : cuts) json.member(name, value);
   array("files", files);
   if (interrupted) json.member("interrupted", true);
   if (divergence) {

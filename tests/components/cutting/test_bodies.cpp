@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "components/cutting/tetrahedral_file.h"
+#include "components/io/mesh_file.h"
 
 namespace stroma::test {
 namespace {
@@ -107,9 +107,9 @@ SimplicialComplex solid(const TetrahedralMesh& mesh) {
 }
 
 SimplicialComplex sceneSolid(const std::string& name) {
-  const TetrahedralFile file =
-      readTetrahedra(std::filesystem::path(STROMA_MESHES) / (name + ".msh"));
-  return SimplicialComplex::fromTetrahedra(file.points, file.tetrahedra, file.surface);
+  const MeshData file =
+      readMesh(std::filesystem::path(STROMA_MESHES) / (name + ".msh"), MeshFormat::gmsh);
+  return SimplicialComplex::fromTetrahedra(file.positions, file.tetrahedra, file.triangles);
 }
 
 }  // namespace stroma::test

@@ -1,0 +1,546 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "components/cutting/cutting_topology_modifier.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <stdexcept>
+
+#include "components/cutting/cut_invariants.h"
+#include "components/cutting/seam_measure.h"
+#include "core/scene.h"
+#include "core/traverse.h"
+
+namespace stroma {
+namespace {
+
+Mat3 rotationOf(const Mat3& A) {
+  const Eigen::JacobiSVD<Mat3> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
+// Points along a polyline, evenly within each of its segments, its corners included.
+std::vector<Vec3> resampled(std::span<const Vec3> corners, int count) {
+  const auto segments = static_cast<int>(corners.size()) - 1;
+  const int each = std::max(1, (count - 1 + segments - 1) / segments);
+  std::vector<Vec3> points{corners.front()};
+  for (std::size_t s = 0; s + 1 < corners.size(); ++s)
+    for (int k = 1; k <= each; ++k)
+      points.push_back(k == each ? corners[s + 1]
+                                 : Vec3(corners[s] + static_cast<double>(k) / each *
+                                                         (corners[s + 1] - corners[s])));
+  return points;
+}
+
+std::vector<Vec3> edgeAt(const Tool& tool, const Pose& pose, int count) {
+  std::vector<Vec3> edge = resampled(tool.edge(), count);
+  for (Vec3& p : edge) p = pose * p;
+  return edge;
+}
+
+}  // namespace
+
+void CuttingTopologyModifier::configure() {
+  const auto require = [&](PierceCriterion criterion, const Attribute<double>& limit) {
+    if (pierceCriterion == criterion && !limit.isSet()) {
+      error(limit, "attr-required",
+            "is needed for pierceCriterion=\"" +
+                ValueTraits<PierceCriterion>::print(pierceCriterion) + "\"");
+    } else if (pierceCriterion != criterion && limit.isSet()) {
+      error(limit, "attr-unused",
+            "has no meaning for pierceCriterion=\"" +
+                ValueTraits<PierceCriterion>::print(pierceCriterion) + "\"");
+    }
+  };
+  require(PierceCriterion::stress, pierceStress);
+  require(PierceCriterion::force, pierceForce);
+  require(PierceCriterion::energy, pierceEnergy);
+}
+
+void CuttingTopologyModifier::bind() {
+  if (pierceCriterion == PierceCriterion::stress && !forceField) {
+    error("pierce-stress", "has no force field whose stress could pierce the surface",
+          "give forceField=\"@...\"");
+  }
+  for (Tool* tool : tools.targets()) {
+    if (tool->edge().size() < 2)
+      error(tools, "tool-blunt", "'" + tool->path() + "' has no edge: it cannot cut");
+  }
+  if (topology->triangles().empty()) {
+    error(topology, "triangles-empty", "'" + topology->path() + "' has no triangles to cut");
+  }
+  if (surfaceState->size() != static_cast<Index>(topology->positions().size())) {
+    error(surfaceState, "cut-surface",
+          "'" + surfaceState->path() + "' has " + std::to_string(surfaceState->size()) +
+              " nodes, '" + topology->path() + "' has " +
+              std::to_string(topology->positions().size()));
+  }
+  if (!failed()) buildComplex();
+}
+
+void CuttingTopologyModifier::buildComplex() {
+  const ConstVec3Span rest = surfaceState->rest();
+  try {
+    if (solid) {
+      if (solid->tetrahedra().empty()) {
+        error(solid, "solid-tetrahedra", "'" + solid->path() + "' has no tetrahedra");
+        return;
+      }
+      std::vector<Vec3> points(solid->positions().begin(), solid->positions().end());
+      if (points.size() < rest.size()) throw std::invalid_argument("it has fewer points");
+      for (std::size_t k = 0; k < rest.size(); ++k) {
+        constexpr double nearly = 1e-9;
+        if ((points[k] - rest[k]).norm() > nearly * (1 + rest[k].norm()))
+          throw std::invalid_argument("point " + std::to_string(k) + " lies elsewhere");
+        points[k] = rest[k];
+      }
+      complex_ = std::make_unique<SimplicialComplex>(
+          SimplicialComplex::fromTetrahedra(points, solid->tetrahedra(), topology->triangles()));
+    } else {
+      complex_ = std::make_unique<SimplicialComplex>(
+          SimplicialComplex::fromTriangles(rest, topology->triangles()));
+    }
+  } catch (const std::invalid_argument& e) {
+    if (solid) {
+      error(solid, "cut-solid",
+            "'" + solid->path() + "' does not fill '" + topology->path() + "': " + e.what(),
+            "the solid's first points must be the surface's, its outside the surface's triangles");
+    } else {
+      error(topology, "cut-surface", "'" + topology->path() + "' cannot be cut: " + e.what());
+    }
+    return;
+  }
+  meanEdge_ = complex_->meanEdgeLength();
+  volume_ = 0;
+  if (solid)
+    for (Index t = 0; t < complex_->simplexCount(); ++t) volume_ += complex_->volume(t);
+  CutterOptions options;
+  options.subdivide = subdivide;
+  cutter_ = std::make_unique<Cutter>(*complex_, 0, options);
+}
+
+void CuttingTopologyModifier::start() {
+  const auto modifiers = collect<TopologyModifier>(scene().root());
+  for (const TopologyModifier* other : modifiers) {
+    if (other == this) break;
+    if (&other->surface() != &surface() && &other->particles() != &particles()) continue;
+    error("cut-twice", "cuts what '" + other->path() + "' cuts", "name all blades in one");
+    return;
+  }
+  const System* system = scene().systemOf(*mechanicalState);
+  if (!system || system->offsetOf(*mechanicalState) < 0) {
+    error(mechanicalState, "cut-particles",
+          "'" + mechanicalState->path() + "' follows another state: name the particles themselves");
+  }
+  system = scene().systemOf(*surfaceState);
+  if (!system || system->offsetOf(*surfaceState) >= 0) {
+    error(surfaceState, "cut-nodes",
+          "'" + surfaceState->path() + "' follows no particles: a surface that is cut is mapped");
+  }
+  if (failed()) return;
+  const ConstVec3Span rest = mechanicalState->rest();
+  placement_ = std::make_unique<RestPlacement>(rest, RestPlacement::reachOf(rest));
+  std::vector<RestTriangle> outer;
+  for (const Triangle& t : topology->triangles()) {
+    RestTriangle corners;
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[k] = surfaceState->rest()[static_cast<std::size_t>(t[k])];
+    outer.push_back(corners);
+  }
+  course_ = std::make_unique<BladeCourse>(std::move(outer), complex_->dimension() == 3);
+  facets_ = std::make_unique<CutFacets>(placement_->reach());
+  reset();
+}
+
+void CuttingTopologyModifier::reset() {
+  for (Tool* tool : tools.targets()) tool->setCutting(false);
+  tracks_.assign(tools.targets().size(), {});
+  active_ = -1;
+  blade_ = {};
+  held_.clear();
+  failures_ = 0;
+  cutting.set(false);
+  changes.set(0);
+  addedEnergy.set(0);
+  engagedLength.set(0);
+  tipStress.set(0);
+  Index count = 1;
+  static_cast<void>(complex_->pieces(count));
+  pieces.set(count);
+}
+
+void CuttingTopologyModifier::topologyRestored() {
+  buildComplex();
+  facets_ = std::make_unique<CutFacets>(placement_->reach());
+  history_.clear();
+  paths_.clear();
+}
+
+void CuttingTopologyModifier::schedule(Schedule& schedule) {
+  schedule.add<&CuttingTopologyModifier::cut>(Stage::Topology, *this, "cut along the blades");
+}
+
+// The edge drawn back to the rest configuration; false where no particle is near it.
+bool CuttingTopologyModifier::follow(Tool& tool, Track& track) const {
+  const ConstVec3Span x = mechanicalState->x(), rest = mechanicalState->rest();
+  const std::vector<Vec3> now = edgeAt(tool, tool.pose(), bladePoints);
+  if (track.edge.empty()) {
+    const std::vector<Vec3> before = edgeAt(tool, tool.previousPose(), bladePoints);
+    double way = 0.01 * placement_->reach();  // tissue moves too, if no faster than the tool
+    for (std::size_t k = 0; k < now.size(); ++k)
+      way = std::max(way, 2 * (now[k] - before[k]).norm());
+    track.clearance -= way;
+    if (track.clearance > 0) return false;
+    double nearest = std::numeric_limits<double>::infinity();
+    std::size_t particle = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      for (const Vec3& p : now)
+        if (const double d = (x[i] - p).squaredNorm(); d < nearest) nearest = d, particle = i;
+    track.clearance = std::sqrt(nearest) - placement_->reach();
+    if (track.clearance > 0) return false;
+    track.edge = now;
+    for (Vec3& p : track.edge) p += rest[particle] - x[particle];
+  }
+  std::vector<std::optional<RestPlacement::Place>> places(now.size());
+  bool any = false;
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    places[k] = placement_->find(now[k], track.edge[k], x);
+    any = any || places[k];
+  }
+  if (!any) {
+    track.edge.clear();
+    track.clearance = 0;
+    return false;
+  }
+  // beyond the particles the edge goes on rigidly from its nearest point that has some
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    if (places[k]) {
+      track.edge[k] = places[k]->rest;
+      continue;
+    }
+    std::size_t m = now.size();
+    for (std::size_t away = 1; m == now.size(); ++away) {
+      if (k >= away && places[k - away])
+        m = k - away;
+      else if (k + away < now.size() && places[k + away])
+        m = k + away;
+    }
+    track.edge[k] = places[m]->rest + rotationOf(places[m]->inverse) * (now[k] - now[m]);
+  }
+  return true;
+}
+
+bool CuttingTopologyModifier::pierces(const Tool& tool, const Track& track) {
+  if (needsTrigger && !tool.active()) return false;
+  const Pressing& pressing = track.pressing;
+  switch (pierceCriterion) {
+    case PierceCriterion::none:
+      return false;  // no pressing needed
+    case PierceCriterion::force:
+      return pressing.force() >= pierceForce && pressing.touches();
+    case PierceCriterion::energy:
+      return pressing.energyPerArea() >= pierceEnergy && pressing.touches();
+    case PierceCriterion::stress:
+      break;
+  }
+  if (!pressing.touches()) return false;
+  const StateView now = mechanicalState->view(scene().time());
+  const Vec3 guess = track.edge.empty() ? pressing.point() : track.edge.back();
+  const auto place = placement_->find(pressing.point(), guess, now.x);
+  if (!place) return false;
+  tipStress.set(vonMisesNear(*forceField, now, placement_->around(place->rest)));
+  return tipStress >= pierceStress;
+}
+
+void CuttingTopologyModifier::cut(const StepContext&) {
+  blade_ = {};
+  engagedLength.set(0);
+  tipStress.set(0);
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    Tool& tool = *tools.targets()[t];
+    Track& track = tracks_[t];
+    const bool active = active_ == static_cast<Index>(t);
+    const std::vector<Vec3> before = track.edge;
+    const bool near = follow(tool, track);
+    const BladeCourse::Course course = near ? course_->of(track.edge) : BladeCourse::Course{};
+    if (active) {
+      // pierced, the tissue may take some steps to close round the blade
+      const bool goesOn =
+          near && (course.engaged() || !cutter_->cutting()) && (!needsTrigger || tool.active());
+      if (!near && cutter_->cutting()) ++lost_;
+      if (goesOn)
+        advance(tool, track, course);
+      else
+        leave();
+      continue;
+    }
+    track.pressing.add(tool);
+    const bool atOnce = pierceCriterion == PierceCriterion::none && course.engaged() &&
+                        (!needsTrigger || tool.active());
+    if (!atOnce && !pierces(tool, track)) continue;
+    if (active_ >= 0) {
+      ++busy_;
+      continue;
+    }
+    active_ = static_cast<Index>(t);
+    track.pressing.forget();
+    tool.setCutting(true);
+    cutting.set(true);
+    // two, for a blade with two sides
+    paths_.resize(paths_.size() + 2);
+    if (!course.engaged()) continue;
+    // from where the edge was just before, so that no bridge is left where it came in
+    if (!before.empty() && course_->of(before).inside == 0) {
+      const std::vector<Vec3> part = BladeCourse::partNear(before, course, meanEdge_);
+      static_cast<void>(cutter_->advance(part, course.length));
+      record(false, part, course.length);
+    }
+    advance(tool, track, course);
+  }
+}
+
+void CuttingTopologyModifier::advance(Tool& tool, const Track& track,
+                                      const BladeCourse::Course& course) {
+  if (!course.engaged()) return;
+  blade_ = {&tool, course.inside, course.middle, Vec3::Zero()};
+  blade_.middleNow =
+      placement_->imageOf(course.middle, mechanicalState->x()).value_or(tool.pose().position);
+  engagedLength.set(course.inside);
+  tracePath(tool, track, course);
+  // far from the body the edge at rest is a guess, and must not cut what else lies there
+  std::vector<Vec3> part = BladeCourse::partNear(track.edge, course, meanEdge_);
+  const Index poses = cutter_->poseCount();
+  const SurfaceEdit edit = cutter_->advance(part, course.length);
+  if (cutter_->poseCount() != poses) {
+    recordHeld();
+    record(false, part, course.length);
+  } else {
+    held_ = std::move(part);
+  }
+  lastCourse_ = course;
+  apply(edit);
+}
+
+void CuttingTopologyModifier::leave() {
+  Tool& tool = *tools.targets()[static_cast<std::size_t>(active_)];
+  const std::vector<Vec3>& edge = tracks_[static_cast<std::size_t>(active_)].edge;
+  if (cutter_->cutting()) {
+    const std::vector<Vec3> part =
+        edge.empty() ? edge : BladeCourse::partNear(edge, lastCourse_, meanEdge_);
+    const SurfaceEdit edit = cutter_->finish(part);
+    recordHeld();
+    record(true, part, 0);
+    apply(edit);
+    Index count = 1;
+    static_cast<void>(complex_->pieces(count));
+    pieces.set(count);
+  }
+  tool.setCutting(false);
+  cutting.set(false);
+  active_ = -1;
+}
+
+// The true line of the incision: where the edge goes through the surface, on its way from the
+// handle; on both sides for a blade that cuts with both; a ring itself once it is inside.
+void CuttingTopologyModifier::tracePath(const Tool& tool, const Track& track,
+                                        const BladeCourse::Course& course) {
+  constexpr double least = 0.1;  // of an edge: nearer points only add up noise
+  const auto add = [&](std::vector<Vec3>& path, const std::optional<Vec3>& at) {
+    if (at && (path.empty() || (path.back() - *at).norm() > least * meanEdge_)) path.push_back(*at);
+  };
+  const std::span<const Vec3> edge = tool.edge();
+  if (edge.front() == edge.back()) {
+    constexpr double whole = 0.99;
+    std::vector<Vec3>& path = paths_.back();
+    if (path.empty() && course.inside > whole * course.length) path = track.edge;
+    return;
+  }
+  const bool twoSided = edge.back().z() > 0;  // it ends at the handle again
+  if (!course.beginsInside) add(twoSided ? paths_[paths_.size() - 2] : paths_.back(), course.first);
+  if (twoSided && !course.endsInside) add(paths_.back(), course.last);
+}
+
+void CuttingTopologyModifier::change(const SurfaceEdit& edit) {
+  facets_->add(edit.cutFacets);
+  scene().changeTopology({*mechanicalState, *surfaceState, *topology, edit, *facets_});
+}
+
+void CuttingTopologyModifier::apply(const SurfaceEdit& edit) {
+  if (edit.empty()) return;
+  changes.set(changes + 1);
+  if (checkEvery == 0 || changes % checkEvery != 0) return change(edit);
+  System& system = *scene().systemOf(*mechanicalState);
+  const auto energy = [&] {
+    return system.potentialEnergy({system.x(), system.v(), scene().time()});
+  };
+  const double before = energy();
+  change(edit);
+  addedEnergy.set(addedEnergy + energy() - before);
+  failures_ += static_cast<int>(check().failures.size());
+}
+
+TopologyCheck CuttingTopologyModifier::check() const {
+  TopologyCheck report{*mechanicalState, *surfaceState, *topology, *facets_, 0, {}};
+  report.failures = checkInvariants(*complex_, volume_).failures;
+  if (!std::ranges::equal(topology->triangles(), complex_->surface()))
+    report.failures.push_back("'" + topology->path() + "' has other triangles than were cut");
+  if (surfaceState->size() != complex_->nodeCount())
+    report.failures.push_back("'" + surfaceState->path() + "' has other nodes than were cut");
+  scene().checkTopology(report);
+  return report;
+}
+
+std::vector<std::pair<std::string, double>> CuttingTopologyModifier::lastValues() const {
+  if (!course_) return {};
+  Index count = 1;
+  static_cast<void>(complex_->pieces(count));
+  const TopologyCheck report = check();
+  const SurfaceNumbers numbers = checkInvariants(*complex_, volume_);
+  // the seams that follow a path; a cut right through leaves others on the far side
+  double seam = 0, way = 0, turning = 0, deviation = 0;
+  const auto lines = seamLines(*complex_);
+  std::vector<char> measured(lines.size(), 0);  // a blade may go along a line twice
+  for (const auto& path : paths_) {
+    if (path.size() < 2) continue;
+    std::size_t best = lines.size();
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      const double off = smoothness(lines[k], path, meanEdge_).meanDeviation;
+      if (off < nearest && lineLength(lines[k]) > 0.5 * lineLength(path)) nearest = off, best = k;
+    }
+    if (best < lines.size() && measured[best]) continue;
+    way += lineLength(path);
+    if (best == lines.size()) continue;
+    measured[best] = 1;
+    const double length = lineLength(lines[best]);
+    const Smoothness own = smoothness(lines[best], path, meanEdge_);
+    seam += length;
+    turning += length * own.meanTurning;
+    deviation += length * own.meanDeviation;
+  }
+  return {{"pieces", count},
+          {"incision_length", seam},
+          {"path_length", way},
+          {"incision_turning", seam > 0 ? turning / seam : 0},
+          {"incision_deviation", seam > 0 ? deviation / seam : 0},
+          {"invariant_failures", failures_ + static_cast<double>(report.failures.size())},
+          {"free_chips", report.freeChips},
+          {"smallest_angle", numbers.smallestAngle},
+          {"sliver_fraction", numbers.sliverFraction}};
+}
+
+// A pose as 1, number of points, length of the edge, points; the end of a cut with 0 in front.
+void CuttingTopologyModifier::record(bool finish, ConstVec3Span edge, double length) {
+  history_.insert(history_.end(), {finish ? 0.0 : 1.0, static_cast<double>(edge.size()), length});
+  for (const Vec3& p : edge) history_.insert(history_.end(), {p.x(), p.y(), p.z()});
+}
+
+// A pose that made no difference yet may do so by what comes next.
+void CuttingTopologyModifier::recordHeld() {
+  if (!held_.empty()) record(false, held_, lastCourse_.length);
+  held_.clear();
+}
+
+void CuttingTopologyModifier::replay(StateReader& reader) {
+  std::vector<double> poses(reader.count<double>("history"));
+  if (!reader.read("history", std::span(poses))) return;
+  std::vector<Vec3> edge;
+  for (std::size_t k = 0; k + 2 < poses.size();) {
+    const bool finish = poses[k] == 0;
+    const auto points = static_cast<std::size_t>(poses[k + 1]);
+    lastCourse_.length = poses[k + 2];
+    k += 3;
+    if (points > (poses.size() - k) / 3) return;
+    edge.clear();
+    for (std::size_t p = 0; p < points; ++p, k += 3)
+      edge.push_back({poses[k], poses[k + 1], poses[k + 2]});
+    const SurfaceEdit edit =
+        finish ? cutter_->finish(edge) : cutter_->advance(edge, lastCourse_.length);
+    if (!edit.empty()) change(edit);
+  }
+  history_ = std::move(poses);
+}
+
+void CuttingTopologyModifier::save(StateWriter& writer) const {
+  writer.write("history", std::span<const double>(history_));
+  writer.write("held", ConstVec3Span(held_));
+  const std::array<double, 5> last{lastCourse_.length, lastCourse_.firstAt, lastCourse_.lastAt,
+                                   lastCourse_.beginsInside ? 1.0 : 0.0,
+                                   lastCourse_.endsInside ? 1.0 : 0.0};
+  writer.write("lastCourse", std::span<const double>(last));
+  writer.write("active", active_);
+  writer.write("changes", changes.value());
+  writer.write("pieces", pieces.value());
+  writer.write("failures", failures_);
+  writer.write("addedEnergy", addedEnergy.value());
+  std::vector<double> lengths;
+  std::vector<Vec3> points;
+  for (const auto& path : paths_) {
+    lengths.push_back(static_cast<double>(path.size()));
+    points.insert(points.end(), path.begin(), path.end());
+  }
+  writer.write("paths", std::span<const double>(lengths));
+  writer.write("pathPoints", ConstVec3Span(points));
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    const std::string name = "tool" + std::to_string(t);
+    std::vector<double> numbers(Pressing::numberCount + 1);
+    tracks_[t].pressing.save(numbers);
+    numbers.back() = tracks_[t].clearance;
+    writer.write(name, std::span<const double>(numbers));
+    writer.write(name + ".edge", ConstVec3Span(tracks_[t].edge));
+  }
+}
+
+void CuttingTopologyModifier::restore(StateReader& reader) {
+  reset();
+  const auto points = [&](const std::string& name) {
+    std::vector<Vec3> values(reader.count<double>(name) / 3);
+    if (!reader.read(name, Vec3Span(values))) values.clear();
+    return values;
+  };
+  int made = 0, count = 1;
+  if (reader.read("changes", made)) changes.set(made);
+  if (reader.read("pieces", count)) pieces.set(count);
+  static_cast<void>(reader.read("failures", failures_));
+  double energy = 0;
+  if (reader.read("addedEnergy", energy)) addedEnergy.set(energy);
+  static_cast<void>(reader.read("active", active_));
+  if (active_ >= static_cast<Index>(tracks_.size())) active_ = -1;
+  cutting.set(active_ >= 0);
+  if (active_ >= 0) tools.targets()[static_cast<std::size_t>(active_)]->setCutting(true);
+  std::array<double, 5> last{};
+  if (reader.read("lastCourse", std::span<double>(last))) {
+    lastCourse_ = {.length = last[0],
+                   .inside = 0,
+                   .middle = Vec3::Zero(),
+                   .first = {},
+                   .last = {},
+                   .firstAt = last[1],
+                   .lastAt = last[2],
+                   .beginsInside = last[3] != 0,
+                   .endsInside = last[4] != 0};
+  }
+  held_ = points("held");
+  if (!held_.empty()) static_cast<void>(cutter_->advance(held_, lastCourse_.length));
+  std::vector<double> lengths(reader.count<double>("paths"));
+  const std::vector<Vec3> all = points("pathPoints");
+  paths_.clear();
+  auto from = all.begin();
+  if (reader.read("paths", std::span(lengths))) {
+    for (const double length : lengths) {
+      const auto to = from + std::min(static_cast<std::ptrdiff_t>(length), all.end() - from);
+      paths_.emplace_back(from, to);
+      from = to;
+    }
+  }
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    const std::string name = "tool" + std::to_string(t);
+    std::vector<double> numbers(Pressing::numberCount + 1);
+    if (!reader.read(name, std::span(numbers))) continue;
+    tracks_[t].pressing.restore(numbers);
+    tracks_[t].clearance = numbers.back();
+    tracks_[t].edge = points(name + ".edge");
+    if (tracks_[t].edge.size() < 2) tracks_[t].edge.clear();
+  }
+}
+
+}  // namespace stroma

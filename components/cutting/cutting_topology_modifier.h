@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "components/cutting/blade_course.h"
+#include "components/cutting/cut_facets.h"
+#include "components/cutting/cutter.h"
+#include "components/cutting/pierce_law.h"
+#include "components/cutting/rest_placement.h"
+#include "core/attribute.h"
+#include "core/interfaces/topology_modifier.h"
+#include "core/link.h"
+#include "core/schedule.h"
+
+namespace stroma {
+
+// Cuts a body along the edges of tools.
+//
+// In each step the edge of a tool is drawn back to the rest configuration; what it sweeps there
+// divides the surface and blocks the links between particles. With a `solid` (tetrahedra inside
+// exactly the surface that `topology` has) the incision gets walls, and pieces come apart as closed
+// bodies; without, the surface is cut as an open sheet and the links beneath it as deep as the edge
+// reaches.
+//
+// A blade that presses the surface pierces it when `pierceCriterion` says so; from then on it
+// touches nothing (Tool::cutting) and cuts until its edge is outside. With criterion "none" it cuts
+// wherever it is. The cut follows the blade in strips of half the mesh's edge length and is brought
+// up to the blade when it leaves. One tool cuts at a time; another that wants to is counted.
+//
+// Cutting takes no force of its own: see CuttingResistance.
+class CuttingTopologyModifier final : public TopologyModifier {
+ public:
+  Attribute<PierceCriterion> pierceCriterion{
+      this, "pierceCriterion", PierceCriterion::none,
+      "When a pressing blade goes in: at a von Mises stress of the tissue at its point (as in the "
+      "cornea paper), at a force, at a work per area that it would cut, or at once."};
+  Attribute<double> pierceStress{this,
+                                 "pierceStress",
+                                 0.0,
+                                 "Stress at which the surface is pierced (pierceCriterion=stress).",
+                                 {.unit = "Pa", .min = 0, .runtime = true}};
+  Attribute<double> pierceForce{this,
+                                "pierceForce",
+                                0.0,
+                                "Force at which the surface is pierced (pierceCriterion=force).",
+                                {.unit = "N", .min = 0, .runtime = true}};
+  Attribute<double> pierceEnergy{
+      this,
+      "pierceEnergy",
+      0.0,
+      "Work per area at which the surface is pierced (pierceCriterion=energy).",
+      {.unit = "J/m^2", .min = 0, .runtime = true}};
+  Attribute<bool> needsTrigger{this, "needsTrigger", false,
+                               "Blades cut only while the trigger of their device is held."};
+  Attribute<bool> subdivide{
+      this, "subdivide", true,
+      "Splits the elements along the blade's path; false only parts those that are there, which "
+      "leaves a jagged incision."};
+  Attribute<int> bladePoints{this,
+                             "bladePoints",
+                             12,
+                             "Points of an edge that are drawn back to the rest configuration.",
+                             {.min = 2, .max = 1000}};
+  Attribute<int> checkEvery{
+      this,
+      "checkEvery",
+      0,
+      "Checks what must hold of a cut body after every so many changes (slow), and at the end of "
+      "the run; 0 = at the end only.",
+      {.min = 0}};
+  Attribute<bool> cutting{this, "cutting", false, "A blade is inside.", {.output = true}};
+  Attribute<int> changes{this, "changes", 0, "Topology changes so far.", {.output = true}};
+  Attribute<int> pieces{
+      this, "pieces", 1, "Pieces of the body when a blade last left it.", {.output = true}};
+  Attribute<double> addedEnergy{
+      this,
+      "addedEnergy",
+      0.0,
+      "Energy that the changes of links have added so far, taken away if negative; measured at the "
+      "changes that are checked (checkEvery).",
+      {.unit = "J", .output = true}};
+  Attribute<double> tipStress{
+      this,
+      "tipStress",
+      0.0,
+      "Von Mises stress of the tissue where a blade presses hardest, before "
+      "it goes in (pierceCriterion=stress).",
+      {.unit = "Pa", .output = true}};
+  Attribute<double> engagedLength{this,
+                                  "engagedLength",
+                                  0.0,
+                                  "Length of the edge that is inside, at rest.",
+                                  {.unit = "m", .output = true}};
+  LinkList<Tool> tools{this, "tools", "Blades.", Lookup::explicitOnly, {.aliases = "tool"}};
+  Link<Mesh> solid{this,
+                   "solid",
+                   "Tetrahedra that fill the surface; its nodes are the first points.",
+                   Lookup::explicitOnly,
+                   {.required = false}};
+  Link<MechanicalState> mechanicalState{
+      this, "state", "Particles of the body.", Lookup::nearest, {.aliases = "mstate"}};
+  Link<MechanicalState> surfaceState{this, "surfaceState", "Nodes of the surface, mapped.",
+                                     Lookup::explicitOnly};
+  Link<Topology> topology{this, "topology", "Triangles of the surface.", Lookup::explicitOnly};
+  Link<StressField> forceField{this,
+                               "forceField",
+                               "Whose stress pierces (pierceCriterion=stress).",
+                               Lookup::nearest,
+                               {.required = false}};
+
+  void configure() override;
+  void bind() override;
+  void start() override;
+  void reset() override;
+  void schedule(Schedule& schedule) override;
+  void topologyRestored() override;
+  [[nodiscard]] TopologyCheck check() const override;
+  void replay(StateReader& reader) override;
+  void save(StateWriter& writer) const override;
+  void restore(StateReader& reader) override;
+  [[nodiscard]] MechanicalState& particles() const override { return *mechanicalState; }
+  [[nodiscard]] MechanicalState& nodes() const override { return *surfaceState; }
+  [[nodiscard]] Topology& surface() const override { return *topology; }
+  // pieces, incision_length and path_length (m), incision_turning (rad) and incision_deviation (in
+  // edge lengths), invariant_failures, free_chips, smallest_angle (degrees), sliver_fraction.
+  [[nodiscard]] std::vector<std::pair<std::string, double>> lastValues() const override;
+
+  // The blade that is inside now.
+  struct Blade {
+    Tool* tool = nullptr;           // none if null
+    double inside = 0;              // length of its edge inside, at rest [m]
+    Vec3 middle = Vec3::Zero();     // of that part, at rest
+    Vec3 middleNow = Vec3::Zero();  // and in the scene
+  };
+  [[nodiscard]] const Blade& blade() const { return blade_; }
+  [[nodiscard]] const RestPlacement& placement() const { return *placement_; }
+  [[nodiscard]] const SimplicialComplex& complex() const { return *complex_; }
+  [[nodiscard]] const CutFacets& facets() const { return *facets_; }
+
+ private:
+  struct Track {             // of one tool
+    std::vector<Vec3> edge;  // its edge at rest in the last step, empty if not near the body
+    Pressing pressing;
+    double clearance = 0;  // way that the tool can go without coming near (m)
+  };
+  void buildComplex();
+  void cut(const StepContext& step);
+  [[nodiscard]] bool follow(Tool& tool, Track& track) const;
+  [[nodiscard]] bool pierces(const Tool& tool, const Track& track);
+  void advance(Tool& tool, const Track& track, const BladeCourse::Course& course);
+  void leave();
+  void change(const SurfaceEdit& edit);
+  void apply(const SurfaceEdit& edit);
+  void record(bool finish, ConstVec3Span edge, double length);
+  void recordHeld();
+  void tracePath(const Tool& tool, const Track& track, const BladeCourse::Course& course);
+
+  std::unique_ptr<SimplicialComplex> complex_;
+  std::unique_ptr<Cutter> cutter_;
+  std::unique_ptr<CutFacets> facets_;
+  std::unique_ptr<RestPlacement> placement_;
+  std::unique_ptr<BladeCourse> course_;
+  double volume_ = 0;          // of the solid at rest [m^3]
+  double meanEdge_ = 0;        // of the uncut mesh [m]
+  std::vector<Track> tracks_;  // one a tool
+  Index active_ = -1;          // the tool that cuts
+  Blade blade_;
+  std::vector<double> history_;           // poses of the edge that counted, for replay()
+  BladeCourse::Course lastCourse_;        // of the blade that cuts
+  std::vector<Vec3> held_;                // the last pose, if not in the history
+  std::vector<std::vector<Vec3>> paths_;  // where edges went through the surface, at rest
+  int failures_ = 0;                      // found by the checks on the way
+  Limiter busy_{this, "busy", "steps in which a second blade wanted to cut and could not"};
+  Limiter lost_{this, "lost",
+                "steps in which the edge of a cutting blade was nowhere near a particle"};
+};
+
+}  // namespace stroma
