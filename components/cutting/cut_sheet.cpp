@@ -81,14 +81,20 @@ std::size_t CutSheet::cornerBefore(const std::vector<Vec3>& pose) const {
   return corner;
 }
 
+// Whether nearly nothing lies between the last row and a pose: the blade has slid along itself.
+bool CutSheet::isSlide(const std::vector<Vec3>& from, const std::vector<Vec3>& to) const {
+  double area = 0, length = 0;
+  for (std::size_t k = 1; k < to.size(); ++k) {
+    area += 0.5 * (from[k] - from[k - 1]).cross(to[k] - from[k - 1]).norm() +
+            0.5 * (to[k] - from[k - 1]).cross(to[k - 1] - from[k - 1]).norm();
+    length += (to[k] - to[k - 1]).norm();
+  }
+  return area < leastWidth * spacing_ * length;
+}
+
 // A blade that plunges along its own edge before it has cut anything sets in where it comes to.
 void CutSheet::slideIn() {
-  if (rows_.size() != 2) return;
-  double area = 0, length = 0;
-  for (const RestTriangle& t : strip(0)) area += 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
-  for (std::size_t k = 1; k < rows_[1].size(); ++k)
-    length += (rows_[1][k] - rows_[1][k - 1]).norm();
-  if (area < leastWidth * spacing_ * length) rows_.erase(rows_.begin());
+  if (rows_.size() == 2 && isSlide(rows_[0], rows_[1])) rows_.erase(rows_.begin());
 }
 
 Index CutSheet::addPose(ConstVec3Span blade) {
@@ -141,7 +147,9 @@ double CutSheet::distanceToFront(ConstVec3Span blade) const {
 }
 
 Index CutSheet::finish() {
-  if (since_.empty() || motion(rows_.back(), since_.back()) < leastMotion * spacing_) return 0;
+  if (since_.empty() || motion(rows_.back(), since_.back()) < leastMotion * spacing_ ||
+      isSlide(rows_.back(), since_.back()))
+    return 0;
   rows_.push_back(since_.back());
   since_.clear();
   return 1;

@@ -26,7 +26,8 @@ class CutSheet {
   Index addPose(ConstVec3Span blade);
   // How far a pose has come from the last row [m].
   [[nodiscard]] double distanceToFront(ConstVec3Span blade) const;
-  // Adds a row where the blade is now, unless it has moved by less than 0.05 of the spacing.
+  // Adds a row where the blade is now, unless it has moved by less than 0.05 of the spacing, or
+  // along itself.
   Index finish();
 
   [[nodiscard]] double spacing() const { return spacing_; }
@@ -41,6 +42,7 @@ class CutSheet {
 
  private:
   [[nodiscard]] std::vector<Vec3> resampled(ConstVec3Span blade) const;
+  [[nodiscard]] bool isSlide(const std::vector<Vec3>& from, const std::vector<Vec3>& to) const;
   void slideIn();
   [[nodiscard]] std::size_t cornerBefore(const std::vector<Vec3>& pose) const;
 

@@ -6,13 +6,14 @@
 
 namespace stroma {
 
-// What cutting costs the hand: on a blade that is inside, along a length L of its edge (at rest),
-//   F = -L (toughness / sqrt(|v|^2 + v0^2) + drag) v,
-// v the velocity of the tool where it cuts, relative to the tissue there. The first part is the
-// work of parting, toughness an area cut; it vanishes smoothly as the blade comes to rest, with the
-// speed v0 = `restSpeed`. The tissue around the middle of L gets the opposite force. The factor of
-// v is that of the beginning of the step; in v the force is implicit, so that an implicit solver
-// stays stable however light the tissue at the blade is. An explicit one takes very short steps.
+// What cutting costs the hand. On each piece of length L (at rest) of an edge that is inside acts
+//   F = -L (toughness s / sqrt(|v|^2 + v0^2) + drag) v,
+// v the velocity of the tool there relative to the tissue, s the sine of its angle with the edge.
+// The first part is the work of parting, toughness an area cut; it acts while the blade advances
+// and vanishes smoothly as it comes to rest, with the speed v0 = `restSpeed`. The tissue around
+// each piece gets the opposite force. The factor of v is that of the beginning of the step; in v
+// the force is implicit, so that an implicit solver stays stable however light the tissue at the
+// blade is. An explicit one takes very short steps.
 //
 // Forces measured at sharp keratomes (about 0.2 N on some 2 mm) mean 0.05 to 0.25 kJ/m^2; what
 // tearing takes is ten times that.
@@ -60,13 +61,17 @@ class CuttingResistance final : public ForceField {
     Index particle;
     double weight;
   };
+  // Tissue around a piece of the edge: F = factor (speed - its mean velocity).
+  struct Hold {
+    std::vector<Share> shares;
+    double factor;    // N s/m
+    Vec3 speed, now;  // of the blade there (m/s), and where that is
+    [[nodiscard]] Vec3 mean(ConstVec3Span v) const;
+  };
   void prepare(const StepContext& step);
   void publish(const StepContext& step);
-  [[nodiscard]] Vec3 tissueMean(ConstVec3Span v) const;
 
-  std::vector<Share> shares_;
-  double factor_ = 0;          // force per relative speed in this step (N s/m)
-  Vec3 speed_ = Vec3::Zero();  // of the blade in the middle of what is inside (m/s)
+  std::vector<Hold> holds_;
 };
 
 }  // namespace stroma

@@ -157,6 +157,7 @@ void CuttingTopologyModifier::reset() {
   active_ = -1;
   blade_ = {};
   held_.clear();
+  wayOut_ = 0;
   failures_ = 0;
   cutting.set(false);
   changes.set(0);
@@ -259,13 +260,24 @@ void CuttingTopologyModifier::cut(const StepContext&) {
     Tool& tool = *tools.targets()[t];
     Track& track = tracks_[t];
     const bool active = active_ == static_cast<Index>(t);
-    const std::vector<Vec3> before = track.edge;
+    track.before = track.edge;
     const bool near = follow(tool, track);
     const BladeCourse::Course course = near ? course_->of(track.edge) : BladeCourse::Course{};
     if (active) {
-      // pierced, the tissue may take some steps to close round the blade
+      // pierced, the tissue may take some steps to close round the blade; and what goes out goes on
+      // for a little, so that no bridge is left there
+      constexpr double farOut = 0.5;  // edges
+      if (course.engaged()) {
+        wayOut_ = 0;
+      } else if (near && track.before.size() == track.edge.size()) {
+        double moved = 0;
+        for (std::size_t k = 0; k < track.edge.size(); ++k)
+          moved = std::max(moved, (track.edge[k] - track.before[k]).norm());
+        wayOut_ += moved;
+      }
       const bool goesOn =
-          near && (course.engaged() || !cutter_->cutting()) && (!needsTrigger || tool.active());
+          near && (course.engaged() || !cutter_->cutting() || wayOut_ < farOut * meanEdge_) &&
+          (!needsTrigger || tool.active());
       if (!near && cutter_->cutting()) ++lost_;
       if (goesOn)
         advance(tool, track, course);
@@ -288,51 +300,101 @@ void CuttingTopologyModifier::cut(const StepContext&) {
     // two, for a blade with two sides
     paths_.resize(paths_.size() + 2);
     if (!course.engaged()) continue;
-    // from where the edge was just before, so that no bridge is left where it came in
-    if (!before.empty() && course_->of(before).inside == 0) {
-      const std::vector<Vec3> part = BladeCourse::partNear(before, course, meanEdge_);
-      static_cast<void>(cutter_->advance(part, course.length));
-      record(false, part, course.length);
-    }
     advance(tool, track, course);
   }
 }
 
 void CuttingTopologyModifier::advance(Tool& tool, const Track& track,
                                       const BladeCourse::Course& course) {
-  if (!course.engaged()) return;
-  blade_ = {&tool, course.inside, course.middle, Vec3::Zero()};
-  blade_.middleNow =
-      placement_->imageOf(course.middle, mechanicalState->x()).value_or(tool.pose().position);
+  if (!course.engaged()) {
+    if (cutter_->cutting() && goesForward(tool))
+      sweep(BladeCourse::partNear(track.edge, lastCourse_, meanEdge_), lastCourse_.length);
+    return;
+  }
+  showBlade(tool, track, course);
   engagedLength.set(course.inside);
-  tracePath(tool, track, course);
   // far from the body the edge at rest is a guess, and must not cut what else lies there
   std::vector<Vec3> part = BladeCourse::partNear(track.edge, course, meanEdge_);
+  blade_.advances = goesForward(tool) && (cutter_->cutting() || !inOldSlit());
+  if (!blade_.advances) {
+    if (cutter_->cutting() && cutter_->sheet()->distanceToFront(part) > meanEdge_) endCut({});
+    return;
+  }
+  tracePath(tool, track, course);
+  // from where the edge was just before, so that no bridge is left where it came in
+  if (!cutter_->cutting() && !track.before.empty() && course_->of(track.before).inside == 0) {
+    const std::vector<Vec3> before = BladeCourse::partNear(track.before, course, meanEdge_);
+    static_cast<void>(cutter_->advance(before, course.length));
+    record(false, before, course.length);
+  }
+  lastCourse_ = course;
+  sweep(std::move(part), course.length);
+}
+
+void CuttingTopologyModifier::sweep(std::vector<Vec3> part, double length) {
   const Index poses = cutter_->poseCount();
-  const SurfaceEdit edit = cutter_->advance(part, course.length);
+  const SurfaceEdit edit = cutter_->advance(part, length);
   if (cutter_->poseCount() != poses) {
     recordHeld();
-    record(false, part, course.length);
+    record(false, part, length);
   } else {
     held_ = std::move(part);
   }
-  lastCourse_ = course;
   apply(edit);
+}
+
+bool CuttingTopologyModifier::goesForward(const Tool& tool) const {
+  const Vec3 way = tool.cuttingDirection();
+  if (way.isZero()) return true;
+  const Vec3 moved = tool.pose() * Vec3::Zero() - tool.previousPose() * Vec3::Zero();
+  return moved.dot(tool.pose().orientation * way) > 0;
+}
+
+bool CuttingTopologyModifier::inOldSlit() const {
+  constexpr double width = 0.15;  // of an edge, to each side
+  return std::ranges::all_of(blade_.pieces, [&](const BladePiece& piece) {
+    return facets_->near(piece.rest, width * meanEdge_);
+  });
+}
+
+void CuttingTopologyModifier::endCut(ConstVec3Span edge) {
+  const SurfaceEdit edit = cutter_->finish(edge);
+  recordHeld();
+  record(true, edge, 0);
+  apply(edit);
+  Index count = 1;
+  static_cast<void>(complex_->pieces(count));
+  pieces.set(count);
+}
+
+void CuttingTopologyModifier::showBlade(Tool& tool, const Track& track,
+                                        const BladeCourse::Course& course) {
+  const std::vector<Vec3> local = resampled(tool.edge(), bladePoints);
+  blade_.tool = &tool;
+  blade_.pieces.clear();
+  double along = 0;
+  for (std::size_t k = 0; k + 1 < local.size(); ++k) {
+    const Vec3 &p = track.edge[k], &q = track.edge[k + 1];
+    const double length = (q - p).norm(), middle = along + 0.5 * length;
+    along += length;
+    const Vec3 rest = 0.5 * (p + q);
+    const bool inside = complex_->dimension() == 3 ? course_->contains(rest)
+                                                   : course.first && middle > course.firstAt;
+    if (!inside) continue;
+    const Vec3 at = 0.5 * (local[k] + local[k + 1]);
+    const Quat& turn = tool.pose().orientation;
+    blade_.pieces.push_back(
+        {length, rest, tool.pose() * at, turn * (local[k + 1] - local[k]).normalized()});
+  }
 }
 
 void CuttingTopologyModifier::leave() {
   Tool& tool = *tools.targets()[static_cast<std::size_t>(active_)];
   const std::vector<Vec3>& edge = tracks_[static_cast<std::size_t>(active_)].edge;
   if (cutter_->cutting()) {
-    const std::vector<Vec3> part =
-        edge.empty() ? edge : BladeCourse::partNear(edge, lastCourse_, meanEdge_);
-    const SurfaceEdit edit = cutter_->finish(part);
-    recordHeld();
-    record(true, part, 0);
-    apply(edit);
-    Index count = 1;
-    static_cast<void>(complex_->pieces(count));
-    pieces.set(count);
+    endCut(edge.empty() || !goesForward(tool)
+               ? std::vector<Vec3>()
+               : BladeCourse::partNear(edge, lastCourse_, meanEdge_));
   }
   tool.setCutting(false);
   cutting.set(false);
@@ -399,23 +461,21 @@ std::vector<std::pair<std::string, double>> CuttingTopologyModifier::lastValues(
   double seam = 0, way = 0, turning = 0, deviation = 0;
   const auto lines = seamLines(*complex_);
   std::vector<char> measured(lines.size(), 0);  // a blade may go along a line twice
-  for (const auto& path : paths_) {
+  for (std::size_t pair = 0; pair + 1 < paths_.size(); pair += 2) {
+    std::vector<Vec3> path(paths_[pair].rbegin(), paths_[pair].rend());
+    path.insert(path.end(), paths_[pair + 1].begin(), paths_[pair + 1].end());
     if (path.size() < 2) continue;
-    std::size_t best = lines.size();
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-      const double off = smoothness(lines[k], path, meanEdge_).meanDeviation;
-      if (off < nearest && lineLength(lines[k]) > 0.5 * lineLength(path)) nearest = off, best = k;
-    }
-    if (best < lines.size() && measured[best]) continue;
     way += lineLength(path);
-    if (best == lines.size()) continue;
-    measured[best] = 1;
-    const double length = lineLength(lines[best]);
-    const Smoothness own = smoothness(lines[best], path, meanEdge_);
-    seam += length;
-    turning += length * own.meanTurning;
-    deviation += length * own.meanDeviation;
+    constexpr double onPath = 0.3;  // edges; a cut right through leaves seams farther off as well
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      const Smoothness own = smoothness(lines[k], path, meanEdge_);
+      if (measured[k] || own.meanDeviation > onPath) continue;
+      measured[k] = 1;
+      const double length = lineLength(lines[k]);
+      seam += length;
+      turning += length * own.meanTurning;
+      deviation += length * own.meanDeviation;
+    }
   }
   return {{"pieces", count},
           {"incision_length", seam},
@@ -468,6 +528,7 @@ void CuttingTopologyModifier::save(StateWriter& writer) const {
                                    lastCourse_.endsInside ? 1.0 : 0.0};
   writer.write("lastCourse", std::span<const double>(last));
   writer.write("active", active_);
+  writer.write("wayOut", wayOut_);
   writer.write("changes", changes.value());
   writer.write("pieces", pieces.value());
   writer.write("failures", failures_);
@@ -504,6 +565,7 @@ void CuttingTopologyModifier::restore(StateReader& reader) {
   double energy = 0;
   if (reader.read("addedEnergy", energy)) addedEnergy.set(energy);
   static_cast<void>(reader.read("active", active_));
+  static_cast<void>(reader.read("wayOut", wayOut_));
   if (active_ >= static_cast<Index>(tracks_.size())) active_ = -1;
   cutting.set(active_ >= 0);
   if (active_ >= 0) tools.targets()[static_cast<std::size_t>(active_)]->setCutting(true);

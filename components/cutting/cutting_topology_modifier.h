@@ -28,6 +28,9 @@ namespace stroma {
 // wherever it is. The cut follows the blade in strips of half the mesh's edge length and is brought
 // up to the blade when it leaves. One tool cuts at a time; another that wants to is counted.
 //
+// A blade that cuts one way (Tool::cuttingDirection) does not cut as it draws back, and one that
+// goes through a slit which is there already cuts nothing.
+//
 // Cutting takes no force of its own: see CuttingResistance.
 class CuttingTopologyModifier final : public TopologyModifier {
  public:
@@ -126,12 +129,17 @@ class CuttingTopologyModifier final : public TopologyModifier {
   // edge lengths), invariant_failures, free_chips, smallest_angle (degrees), sliver_fraction.
   [[nodiscard]] std::vector<std::pair<std::string, double>> lastValues() const override;
 
-  // The blade that is inside now.
+  // The blade that is inside now, as pieces of its edge.
+  struct BladePiece {
+    double length;  // at rest [m]
+    Vec3 rest;      // its middle at rest
+    Vec3 now;       // and in the scene
+    Vec3 along;     // unit tangent of the edge in the scene
+  };
   struct Blade {
-    Tool* tool = nullptr;           // none if null
-    double inside = 0;              // length of its edge inside, at rest [m]
-    Vec3 middle = Vec3::Zero();     // of that part, at rest
-    Vec3 middleNow = Vec3::Zero();  // and in the scene
+    Tool* tool = nullptr;   // none if null
+    bool advances = false;  // it cuts, and does not go back or through a slit
+    std::vector<BladePiece> pieces;
   };
   [[nodiscard]] const Blade& blade() const { return blade_; }
   [[nodiscard]] const RestPlacement& placement() const { return *placement_; }
@@ -139,8 +147,9 @@ class CuttingTopologyModifier final : public TopologyModifier {
   [[nodiscard]] const CutFacets& facets() const { return *facets_; }
 
  private:
-  struct Track {             // of one tool
-    std::vector<Vec3> edge;  // its edge at rest in the last step, empty if not near the body
+  struct Track {               // of one tool
+    std::vector<Vec3> edge;    // its edge at rest in the last step, empty if not near the body
+    std::vector<Vec3> before;  // and in the step before that
     Pressing pressing;
     double clearance = 0;  // way that the tool can go without coming near (m)
   };
@@ -149,6 +158,11 @@ class CuttingTopologyModifier final : public TopologyModifier {
   [[nodiscard]] bool follow(Tool& tool, Track& track) const;
   [[nodiscard]] bool pierces(const Tool& tool, const Track& track);
   void advance(Tool& tool, const Track& track, const BladeCourse::Course& course);
+  [[nodiscard]] bool goesForward(const Tool& tool) const;
+  [[nodiscard]] bool inOldSlit() const;
+  void endCut(ConstVec3Span edge);
+  void sweep(std::vector<Vec3> part, double length);
+  void showBlade(Tool& tool, const Track& track, const BladeCourse::Course& course);
   void leave();
   void change(const SurfaceEdit& edit);
   void apply(const SurfaceEdit& edit);
@@ -167,6 +181,7 @@ class CuttingTopologyModifier final : public TopologyModifier {
   Index active_ = -1;          // the tool that cuts
   Blade blade_;
   std::vector<double> history_;           // poses of the edge that counted, for replay()
+  double wayOut_ = 0;                     // of the blade that cuts, since it was last inside [m]
   BladeCourse::Course lastCourse_;        // of the blade that cuts
   std::vector<Vec3> held_;                // the last pose, if not in the history
   std::vector<std::vector<Vec3>> paths_;  // where edges went through the surface, at rest

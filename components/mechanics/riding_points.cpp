@@ -23,11 +23,22 @@ bool seesAll(const Vec3& eye, std::span<const Index> carriers, ConstVec3Span X,
   return std::ranges::find(blocked, 1) == blocked.end();
 }
 
+// Whether a search would find again what carries a point, given that its eye stays: cuts hide more
+// and more, so what was nearest is so as long as it can be seen.
+bool keepsCarriers(const RidingPoints& points, Index s, const TopologyChange& change,
+                   const CutParticles& particles) {
+  const auto carriers = points.shape.carriersOf(s);
+  return points.single[s] && points.states[s] == RidingPoints::State::sound &&
+         std::ranges::all_of(carriers, [&](Index i) { return particles.gradients.rank[i] == 3; }) &&
+         !losesSight(points.eyes[s], carriers, particles.rest, particles.newFacets, change.barrier);
+}
+
 }  // namespace
 
 void prepareForCuts(RidingPoints& points, ConstVec3Span rest, ConstVec3Span X) {
   points.eyes.assign(rest.begin(), rest.end());
   points.states.assign(rest.size(), RidingPoints::State::sound);
+  points.single.assign(rest.size(), 0);
   points.longestArm = 0;
   for (Index s = 0; s < points.shape.pointCount(); ++s)
     for (const Index i : points.shape.carriersOf(s))
@@ -44,20 +55,24 @@ std::vector<Index> concernedPoints(RidingPoints& points, ConstVec3Span rest, boo
       out.push_back(s);
     points.eyes.insert(points.eyes.end(), rest.begin() + points.shape.pointCount(), rest.end());
     points.states.resize(rest.size(), RidingPoints::State::sound);
+    points.single.resize(rest.size(), 0);
     for (const TouchedNode& touched : edit.touched) {
       points.eyes[touched.node] = touched.inward;
       out.push_back(touched.node);
     }
     for (const Index node : edit.retired) points.states[node] = RidingPoints::State::retired;
   }
+  points.keeps.assign(rest.size(), 0);
   points.marks.clear(rest.size());
   for (const Index s : out) static_cast<void>(points.marks.mark(s));
   // carried by a row that has changed
   for (const Index i : particles.relinked)
     for (const PointEntry& e : points.shape.pointsOn(i))
       if (std::ranges::binary_search(points.shape.carriersOf(e.point), i) &&
-          points.marks.mark(e.point))
+          points.marks.mark(e.point)) {
         out.push_back(e.point);
+        points.keeps[e.point] = keepsCarriers(points, e.point, change, particles);
+      }
   // or by a particle that a new facet hides
   if (!edit.cutFacets.empty())
     for (const Index i : particles.search.around(edit.cutFacets, points.longestArm))
@@ -84,8 +99,11 @@ void carryAnew(RidingPoints& points, ConstVec3Span rest, std::span<const Index> 
     for (Index k = begin; k < end; ++k) {
       const Index s = which[k];
       std::vector<Carrier> carriers =
-          particles.search.carriersOf(rest[s], points.eyes[s], points.supports,
-                                      particles.neighbourhoods, particles.gradients.rank, barrier);
+          points.keeps[s] ? VisibilitySearch::sorted(rest[s], points.shape.carriersOf(s),
+                                                     particles.rest, particles.neighbourhoods)
+                          : particles.search.carriersOf(rest[s], points.eyes[s], points.supports,
+                                                        particles.neighbourhoods,
+                                                        particles.gradients.rank, barrier);
       found[k].chip = static_cast<Index>(carriers.size()) < points.fewest();
       if (carriers.empty()) carriers.push_back(particles.search.nearest(rest[s]));
       for (const Carrier& c : carriers)
@@ -96,6 +114,7 @@ void carryAnew(RidingPoints& points, ConstVec3Span rest, std::span<const Index> 
   });
   for (std::size_t k = 0; k < which.size(); ++k) {
     points.shape.replaceRow(which[k], found[k].row);
+    points.single[which[k]] = 1;
     points.longestArm = std::max(points.longestArm, found[k].arm);
     RidingPoints::State& state = points.states[which[k]];
     if (state == RidingPoints::State::retired) continue;

@@ -21,6 +21,8 @@ struct RidingPoints {
   enum class State : char { sound, chip, retired };
   std::vector<Vec3> eyes;
   std::vector<State> states;
+  std::vector<char> single;  // carried as a single point already
+  std::vector<char> keeps;   // whether those that the last change concerns keep their carriers
   double longestArm = 0;     // m, from a point to a carrier
   std::uint64_t change = 0;  // number of the last change followed, and what it did
   std::vector<Index> redone;

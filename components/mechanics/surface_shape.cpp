@@ -2,7 +2,9 @@
 #include "components/mechanics/surface_shape.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 
@@ -50,6 +52,32 @@ class RowBuilder {
   std::vector<double> weight_;
   std::vector<char> used_;
   std::vector<Index> touched_;
+};
+
+// Sums of weights by particle for a few particles of many: a hash table with open addressing, of at
+// least twice the size of what is added.
+class SparseSum {
+ public:
+  explicit SparseSum(std::size_t most) : slots_(std::bit_ceil(2 * most + 2), {-1, 0}) {}
+
+  void add(Index particle, double weight) {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t at = static_cast<std::uint32_t>(particle) * 2654435769U >> 7 & mask;
+    while (slots_[at].particle != particle && slots_[at].particle >= 0) at = (at + 1) & mask;
+    slots_[at].particle = particle;
+    slots_[at].weight += weight;
+  }
+  // What was added, by ascending particle.
+  [[nodiscard]] std::vector<ShapeEntry> sums() const {
+    std::vector<ShapeEntry> sums;
+    std::ranges::copy_if(slots_, std::back_inserter(sums),
+                         [](const ShapeEntry& e) { return e.particle >= 0; });
+    std::ranges::sort(sums, {}, &ShapeEntry::particle);
+    return sums;
+  }
+
+ private:
+  std::vector<ShapeEntry> slots_;
 };
 
 // One particle's share in a shape function: weight of its position, and the arm along which its
@@ -252,26 +280,22 @@ PointRow SurfaceShape::rowOf(const Vec3& point, std::span<const Carrier> carrier
   for (const Carrier& c : carriers) squared.push_back(c.squared);
   shepardWeights(squared, n.options.kernel, weights);
   PointRow row;
-  std::vector<ShapeEntry> parts;
+  std::size_t most = carriers.size();
+  for (const Carrier& c : carriers) most += n.neighboursOf(c.particle).size();
+  SparseSum sum(most);
   for (std::size_t k = 0; k < carriers.size(); ++k) {
     const Index i = carriers[k].particle;
     const Vec3 arm = weights[k] * (point - X[i]);
     double own = weights[k];
     for (Index slot = n.rows[i].begin; slot < n.rows[i].begin + n.rows[i].size; ++slot) {
       const double part = gradients.values[slot].dot(arm);
-      parts.push_back({n.neighbours[slot], part});
+      sum.add(n.neighbours[slot], part);
       own -= part;
     }
-    parts.push_back({i, own});
+    sum.add(i, own);
     row.carriers.push_back(i);
   }
-  std::ranges::stable_sort(parts, {}, &ShapeEntry::particle);
-  for (const ShapeEntry& e : parts) {
-    if (row.entries.empty() || row.entries.back().particle != e.particle)
-      row.entries.push_back(e);
-    else
-      row.entries.back().weight += e.weight;
-  }
+  row.entries = sum.sums();
   std::ranges::sort(row.carriers);
   return row;
 }

@@ -31,6 +31,11 @@ double reachOf(ConstVec3Span X, const Neighbourhoods& n, Index i) {
   return std::sqrt(squared);
 }
 
+// From a point to a particle that could carry it.
+double carryingDistance(const Neighbourhoods& n, Index i, const Vec3& offset) {
+  return n.axes.empty() ? offset.norm() : n.distance(i, offset);
+}
+
 void sortUnique(std::vector<Index>& ids) {
   std::ranges::sort(ids);
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
@@ -188,8 +193,7 @@ std::vector<Carrier> VisibilitySearch::carriersOf(const Vec3& point, const Vec3&
   for (const bool whole : {true, false}) {
     const auto usable = [&](Index j) {
       if (whole && rank[j] < 3) return std::numeric_limits<double>::infinity();
-      const Vec3 offset = point - X_[j];
-      return n.axes.empty() ? offset.norm() : n.distance(j, offset);
+      return carryingDistance(n, j, point - X_[j]);
     };
     seen = nearestSeen({point, eye, radius_[closest], metricExtent(n, closest), wanted, false},
                        barrier, usable);
@@ -198,6 +202,16 @@ std::vector<Carrier> VisibilitySearch::carriersOf(const Vec3& point, const Vec3&
   std::vector<Carrier> carriers;
   for (std::size_t k = 0; k < std::min(wanted, seen.size()); ++k)
     carriers.push_back({seen[k].id, seen[k].distance * seen[k].distance});
+  return carriers;
+}
+
+std::vector<Carrier> VisibilitySearch::sorted(const Vec3& point, std::span<const Index> which,
+                                              ConstVec3Span X, const Neighbourhoods& n) {
+  std::vector<Seen> all;
+  for (const Index i : which) all.push_back({carryingDistance(n, i, point - X[i]), i});
+  std::sort(all.begin(), all.end());
+  std::vector<Carrier> carriers;
+  for (const Seen& s : all) carriers.push_back({s.id, s.distance * s.distance});
   return carriers;
 }
 

@@ -74,6 +74,10 @@ class VisibilitySearch {
                                                 const Neighbourhoods& neighbourhoods,
                                                 std::span<const std::uint8_t> rank,
                                                 const CutBarrier& barrier) const;
+  // These particles as carriers of the point, nearest first.
+  [[nodiscard]] static std::vector<Carrier> sorted(const Vec3& point, std::span<const Index> which,
+                                                   ConstVec3Span positions,
+                                                   const Neighbourhoods& neighbourhoods);
   // The nearest particle, whether it can be seen or not.
   [[nodiscard]] Carrier nearest(const Vec3& point) const;
 

@@ -24,6 +24,8 @@ class KeratomeTool final : public RigidTool {
   Attribute<int> sampleCount{
       this, "sampleCount", 10, "Points on the central axis where it touches.", {.min = 1}};
 
+  [[nodiscard]] Vec3 cuttingDirection() const override { return -Vec3::UnitZ(); }
+
   void bind() override {
     samples_ = evenPoints(Vec3::Zero(), Vec3(0, 0, length), sampleCount);
     edge_ = {Vec3(0.5 * width, 0, length), Vec3::Zero(), Vec3(-0.5 * width, 0, length)};

@@ -25,6 +25,8 @@ class TrephineTool final : public RigidTool {
   Attribute<int> sampleCount{
       this, "sampleCount", 16, "Points on the rim where it touches.", {.min = 1}};
 
+  [[nodiscard]] Vec3 cuttingDirection() const override { return -Vec3::UnitZ(); }
+
   void bind() override {
     samples_ = circle(sampleCount);
     edge_ = circle(edgePoints);

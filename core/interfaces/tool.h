@@ -37,6 +37,8 @@ class Tool : public Component {
   // Cutting edge as a polyline in the tool's frame, from heel to tip; empty for tools that do not
   // cut.
   [[nodiscard]] virtual std::span<const Vec3> edge() const = 0;
+  // The way in which the edge cuts, a unit vector in the tool's frame; zero where it cuts in all.
+  [[nodiscard]] virtual Vec3 cuttingDirection() const { return Vec3::Zero(); }
 
   // Whether the edge is inside the tissue: set by who cuts, read by who responds to contact, to
   // which none of the tool's samples then touches anything.

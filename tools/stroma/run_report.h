@@ -25,8 +25,9 @@ struct RunReport {
   std::vector<std::string> modules;
   std::vector<std::pair<std::string, std::uint64_t>> limiters;  // those that acted
   std::vector<std::pair<std::string, double>> monitors;         // last values
-  std::vector<std::pair<std::string, double>> cuts;  // pieces, incision_length, ...: members of their own
-  std::vector<std::string> files;                               // written
+  std::vector<std::pair<std::string, double>>
+      cuts;                        // pieces, incision_length, ...: members of their own
+  std::vector<std::string> files;  // written
   std::string stateHash;
   std::optional<Divergence> divergence;
   bool interrupted = false;
