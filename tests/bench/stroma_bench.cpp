@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/scene.h"
+#include "cut_bench.h"
 #include "limit_step.h"
 
 namespace stroma::bench {
@@ -126,6 +127,7 @@ void registerAll() {
       ->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("cornea_step", step, "/cornea/pull.xml")
       ->Unit(benchmark::kMillisecond);
+  registerCutBenchmarks();
 }
 
 }  // namespace

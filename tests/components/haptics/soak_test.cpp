@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // How well the haptic rate is kept beside a busy simulation, against an empty loop of the same
 // scheduling class in alternation. STROMA_SOAK_SECONDS says how long each of the two runs (3 s if
-// it is not set), STROMA_SOAK_SCENE names a scene with a HapticController instead of the built-in
-// one, STROMA_SOAK_PRIORITY asks for the real-time class for both.
+// it is not set) and STROMA_SOAK_SLICE after how long they alternate (1 s). STROMA_SOAK_SCENE names
+// a scene with a HapticController instead of the built-in one, such as cutting_hand.xml, which
+// starts anew with each slice; STROMA_SOAK_PRIORITY asks for the real-time class for both.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
 #include "core/interfaces/observer.h"
+#include "core/interfaces/topology_modifier.h"
 #include "core/rate_keeper.h"
 #include "core/traverse.h"
 #include "tests/components/haptics/touch_scene.h"
@@ -35,7 +37,7 @@ std::string environmentText(const char* name, const char* otherwise) {
 
 struct Tally {
   double missed = 0, due = 0, p99 = 0, max = 0, cpu = 0, mostCpu = 0;
-  int slices = 0;
+  int slices = 0, changes = 0;
   void add(double deadlines, double missRate, double slowest99, double slowest) {
     due += deadlines;
     missed += missRate * deadlines;
@@ -100,6 +102,8 @@ void hapticSlice(double seconds, int priority, Tally& tally) {
   const std::unique_ptr<Scene> scene = busyScene(priority, true);
   stepUntil(*scene, monotonicNanoseconds() + std::llround(1e9 * seconds));
   scene->stop();
+  for (const TopologyModifier* modifier : collect<TopologyModifier>(scene->root()))
+    tally.changes += static_cast<int>(modifier->attribute("changes")->number().value_or(0));
   std::map<std::string, double> values;
   for (const Observer* observer : collect<Observer>(scene->root())) {
     for (const auto& [name, value] : observer->lastValues()) values[name] = value;
@@ -114,7 +118,7 @@ void hapticSlice(double seconds, int priority, Tally& tally) {
 TEST(Soak, missesAreThoseOfAnEmptyLoop) {
   const double seconds = environment("STROMA_SOAK_SECONDS", 3);
   const int priority = grantedPriority();
-  const int slices = std::max(2, static_cast<int>(seconds));  // of a second
+  const int slices = std::max(2, static_cast<int>(seconds / environment("STROMA_SOAK_SLICE", 1)));
   Tally empty, haptic;
   for (int i = 0; i < slices; ++i) {
     emptySlice(seconds / slices, priority, empty);
@@ -129,6 +133,7 @@ TEST(Soak, missesAreThoseOfAnEmptyLoop) {
   std::printf("%s class\n", priority > 0 ? "real-time" : "ordinary");
   print("empty ", empty);
   print("haptic", haptic);
+  std::printf("%d topology changes beside it\n", haptic.changes);
   const double cpu = haptic.cpu / haptic.slices;
   std::printf("CPU time of a tick p99 %.1f us (mean of slices; worst slice %.1f us)\n", 1e6 * cpu,
               1e6 * haptic.mostCpu);
