@@ -1,44 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/cutting/cutting_topology_modifier.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <stdexcept>
 
 #include "components/cutting/cut_invariants.h"
-#include "components/cutting/seam_measure.h"
 #include "core/scene.h"
 #include "core/traverse.h"
 
 namespace stroma {
-namespace {
-
-Mat3 rotationOf(const Mat3& A) {
-  const Eigen::JacobiSVD<Mat3> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
-}
-
-// Points along a polyline, evenly within each of its segments, its corners included.
-std::vector<Vec3> resampled(std::span<const Vec3> corners, int count) {
-  const auto segments = static_cast<int>(corners.size()) - 1;
-  const int each = std::max(1, (count - 1 + segments - 1) / segments);
-  std::vector<Vec3> points{corners.front()};
-  for (std::size_t s = 0; s + 1 < corners.size(); ++s)
-    for (int k = 1; k <= each; ++k)
-      points.push_back(k == each ? corners[s + 1]
-                                 : Vec3(corners[s] + static_cast<double>(k) / each *
-                                                         (corners[s + 1] - corners[s])));
-  return points;
-}
-
-std::vector<Vec3> edgeAt(const Tool& tool, const Pose& pose, int count) {
-  std::vector<Vec3> edge = resampled(tool.edge(), count);
-  for (Vec3& p : edge) p = pose * p;
-  return edge;
-}
-
-}  // namespace
-
 void CuttingTopologyModifier::configure() {
   const auto require = [&](PierceCriterion criterion, const Attribute<double>& limit) {
     if (pierceCriterion == criterion && !limit.isSet()) {
@@ -67,6 +37,10 @@ void CuttingTopologyModifier::bind() {
   }
   if (topology->triangles().empty()) {
     error(topology, "triangles-empty", "'" + topology->path() + "' has no triangles to cut");
+  }
+  if (!topology->followsCuts()) {
+    error(topology, "cut-surface", "'" + topology->path() + "' cannot be cut",
+          "a MeshTopology can: give it the triangles");
   }
   if (surfaceState->size() != static_cast<Index>(topology->positions().size())) {
     error(surfaceState, "cut-surface",
@@ -110,6 +84,7 @@ void CuttingTopologyModifier::buildComplex() {
     return;
   }
   meanEdge_ = complex_->meanEdgeLength();
+  trace_ = IncisionTrace(meanEdge_);
   volume_ = 0;
   if (solid)
     for (Index t = 0; t < complex_->simplexCount(); ++t) volume_ += complex_->volume(t);
@@ -153,7 +128,7 @@ void CuttingTopologyModifier::start() {
 
 void CuttingTopologyModifier::reset() {
   for (Tool* tool : tools.targets()) tool->setCutting(false);
-  tracks_.assign(tools.targets().size(), {});
+  tracks_.assign(tools.targets().size(), Track(bladePoints));
   active_ = -1;
   blade_ = {};
   held_.clear();
@@ -173,61 +148,10 @@ void CuttingTopologyModifier::topologyRestored() {
   buildComplex();
   facets_ = std::make_unique<CutFacets>(placement_->reach());
   history_.clear();
-  paths_.clear();
 }
 
 void CuttingTopologyModifier::schedule(Schedule& schedule) {
   schedule.add<&CuttingTopologyModifier::cut>(Stage::Topology, *this, "cut along the blades");
-}
-
-// The edge drawn back to the rest configuration; false where no particle is near it.
-bool CuttingTopologyModifier::follow(Tool& tool, Track& track) const {
-  const ConstVec3Span x = mechanicalState->x(), rest = mechanicalState->rest();
-  const std::vector<Vec3> now = edgeAt(tool, tool.pose(), bladePoints);
-  if (track.edge.empty()) {
-    const std::vector<Vec3> before = edgeAt(tool, tool.previousPose(), bladePoints);
-    double way = 0.01 * placement_->reach();  // tissue moves too, if no faster than the tool
-    for (std::size_t k = 0; k < now.size(); ++k)
-      way = std::max(way, 2 * (now[k] - before[k]).norm());
-    track.clearance -= way;
-    if (track.clearance > 0) return false;
-    double nearest = std::numeric_limits<double>::infinity();
-    std::size_t particle = 0;
-    for (std::size_t i = 0; i < x.size(); ++i)
-      for (const Vec3& p : now)
-        if (const double d = (x[i] - p).squaredNorm(); d < nearest) nearest = d, particle = i;
-    track.clearance = std::sqrt(nearest) - placement_->reach();
-    if (track.clearance > 0) return false;
-    track.edge = now;
-    for (Vec3& p : track.edge) p += rest[particle] - x[particle];
-  }
-  std::vector<std::optional<RestPlacement::Place>> places(now.size());
-  bool any = false;
-  for (std::size_t k = 0; k < now.size(); ++k) {
-    places[k] = placement_->find(now[k], track.edge[k], x);
-    any = any || places[k];
-  }
-  if (!any) {
-    track.edge.clear();
-    track.clearance = 0;
-    return false;
-  }
-  // beyond the particles the edge goes on rigidly from its nearest point that has some
-  for (std::size_t k = 0; k < now.size(); ++k) {
-    if (places[k]) {
-      track.edge[k] = places[k]->rest;
-      continue;
-    }
-    std::size_t m = now.size();
-    for (std::size_t away = 1; m == now.size(); ++away) {
-      if (k >= away && places[k - away])
-        m = k - away;
-      else if (k + away < now.size() && places[k + away])
-        m = k + away;
-    }
-    track.edge[k] = places[m]->rest + rotationOf(places[m]->inverse) * (now[k] - now[m]);
-  }
-  return true;
 }
 
 bool CuttingTopologyModifier::pierces(const Tool& tool, const Track& track) {
@@ -260,8 +184,7 @@ void CuttingTopologyModifier::cut(const StepContext&) {
     Tool& tool = *tools.targets()[t];
     Track& track = tracks_[t];
     const bool active = active_ == static_cast<Index>(t);
-    track.before = track.edge;
-    const bool near = follow(tool, track);
+    const bool near = track.follow(tool, *mechanicalState, *placement_);
     const BladeCourse::Course course = near ? course_->of(track.edge) : BladeCourse::Course{};
     if (active) {
       // pierced, the tissue may take some steps to close round the blade; and what goes out goes on
@@ -297,8 +220,7 @@ void CuttingTopologyModifier::cut(const StepContext&) {
     track.pressing.forget();
     tool.setCutting(true);
     cutting.set(true);
-    // two, for a blade with two sides
-    paths_.resize(paths_.size() + 2);
+    trace_.begin();
     if (!course.engaged()) continue;
     advance(tool, track, course);
   }
@@ -320,7 +242,7 @@ void CuttingTopologyModifier::advance(Tool& tool, const Track& track,
     if (cutter_->cutting() && cutter_->sheet()->distanceToFront(part) > meanEdge_) endCut({});
     return;
   }
-  tracePath(tool, track, course);
+  trace_.add(tool, track.edge, course);
   // from where the edge was just before, so that no bridge is left where it came in
   if (!cutter_->cutting() && !track.before.empty() && course_->of(track.before).inside == 0) {
     const std::vector<Vec3> before = BladeCourse::partNear(track.before, course, meanEdge_);
@@ -369,22 +291,24 @@ void CuttingTopologyModifier::endCut(ConstVec3Span edge) {
 
 void CuttingTopologyModifier::showBlade(Tool& tool, const Track& track,
                                         const BladeCourse::Course& course) {
-  const std::vector<Vec3> local = resampled(tool.edge(), bladePoints);
+  const std::vector<Vec3> local = track.points(tool);
   blade_.tool = &tool;
   blade_.pieces.clear();
+  // what is inside lies between two places along the edge: of several lobes the gaps count as well
+  const double from = course.beginsInside ? 0 : course.firstAt;
+  const double to = course.endsInside ? course.length : course.lastAt;
   double along = 0;
   for (std::size_t k = 0; k + 1 < local.size(); ++k) {
     const Vec3 &p = track.edge[k], &q = track.edge[k + 1];
-    const double length = (q - p).norm(), middle = along + 0.5 * length;
+    const double length = (q - p).norm();
+    const double first = std::max(from - along, 0.0), last = std::min(to - along, length);
     along += length;
-    const Vec3 rest = 0.5 * (p + q);
-    const bool inside = complex_->dimension() == 3 ? course_->contains(rest)
-                                                   : course.first && middle > course.firstAt;
-    if (!inside) continue;
-    const Vec3 at = 0.5 * (local[k] + local[k + 1]);
+    if (!(last > first)) continue;
+    const double middle = 0.5 * (first + last) / length;
+    const Vec3 at = local[k] + middle * (local[k + 1] - local[k]);
     const Quat& turn = tool.pose().orientation;
-    blade_.pieces.push_back(
-        {length, rest, tool.pose() * at, turn * (local[k + 1] - local[k]).normalized()});
+    blade_.pieces.push_back({last - first, p + middle * (q - p), tool.pose() * at,
+                             turn * (local[k + 1] - local[k]).normalized()});
   }
 }
 
@@ -399,26 +323,6 @@ void CuttingTopologyModifier::leave() {
   tool.setCutting(false);
   cutting.set(false);
   active_ = -1;
-}
-
-// The true line of the incision: where the edge goes through the surface, on its way from the
-// handle; on both sides for a blade that cuts with both; a ring itself once it is inside.
-void CuttingTopologyModifier::tracePath(const Tool& tool, const Track& track,
-                                        const BladeCourse::Course& course) {
-  constexpr double least = 0.1;  // of an edge: nearer points only add up noise
-  const auto add = [&](std::vector<Vec3>& path, const std::optional<Vec3>& at) {
-    if (at && (path.empty() || (path.back() - *at).norm() > least * meanEdge_)) path.push_back(*at);
-  };
-  const std::span<const Vec3> edge = tool.edge();
-  if (edge.front() == edge.back()) {
-    constexpr double whole = 0.99;
-    std::vector<Vec3>& path = paths_.back();
-    if (path.empty() && course.inside > whole * course.length) path = track.edge;
-    return;
-  }
-  const bool twoSided = edge.back().z() > 0;  // it ends at the handle again
-  if (!course.beginsInside) add(twoSided ? paths_[paths_.size() - 2] : paths_.back(), course.first);
-  if (twoSided && !course.endsInside) add(paths_.back(), course.last);
 }
 
 void CuttingTopologyModifier::change(const SurfaceEdit& edit) {
@@ -457,31 +361,12 @@ std::vector<std::pair<std::string, double>> CuttingTopologyModifier::lastValues(
   static_cast<void>(complex_->pieces(count));
   const TopologyCheck report = check();
   const SurfaceNumbers numbers = checkInvariants(*complex_, volume_);
-  // the seams that follow a path; a cut right through leaves others on the far side
-  double seam = 0, way = 0, turning = 0, deviation = 0;
-  const auto lines = seamLines(*complex_);
-  std::vector<char> measured(lines.size(), 0);  // a blade may go along a line twice
-  for (std::size_t pair = 0; pair + 1 < paths_.size(); pair += 2) {
-    std::vector<Vec3> path(paths_[pair].rbegin(), paths_[pair].rend());
-    path.insert(path.end(), paths_[pair + 1].begin(), paths_[pair + 1].end());
-    if (path.size() < 2) continue;
-    way += lineLength(path);
-    constexpr double onPath = 0.3;  // edges; a cut right through leaves seams farther off as well
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-      const Smoothness own = smoothness(lines[k], path, meanEdge_);
-      if (measured[k] || own.meanDeviation > onPath) continue;
-      measured[k] = 1;
-      const double length = lineLength(lines[k]);
-      seam += length;
-      turning += length * own.meanTurning;
-      deviation += length * own.meanDeviation;
-    }
-  }
+  const IncisionTrace::Measure incision = trace_.measure(*complex_);
   return {{"pieces", count},
-          {"incision_length", seam},
-          {"path_length", way},
-          {"incision_turning", seam > 0 ? turning / seam : 0},
-          {"incision_deviation", seam > 0 ? deviation / seam : 0},
+          {"incision_length", incision.length},
+          {"path_length", incision.path},
+          {"incision_turning", incision.turning},
+          {"incision_deviation", incision.deviation},
           {"invariant_failures", failures_ + static_cast<double>(report.failures.size())},
           {"free_chips", report.freeChips},
           {"smallest_angle", numbers.smallestAngle},
@@ -533,14 +418,7 @@ void CuttingTopologyModifier::save(StateWriter& writer) const {
   writer.write("pieces", pieces.value());
   writer.write("failures", failures_);
   writer.write("addedEnergy", addedEnergy.value());
-  std::vector<double> lengths;
-  std::vector<Vec3> points;
-  for (const auto& path : paths_) {
-    lengths.push_back(static_cast<double>(path.size()));
-    points.insert(points.end(), path.begin(), path.end());
-  }
-  writer.write("paths", std::span<const double>(lengths));
-  writer.write("pathPoints", ConstVec3Span(points));
+  trace_.save(writer);
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     const std::string name = "tool" + std::to_string(t);
     std::vector<double> numbers(Pressing::numberCount + 1);
@@ -583,17 +461,7 @@ void CuttingTopologyModifier::restore(StateReader& reader) {
   }
   held_ = points("held");
   if (!held_.empty()) static_cast<void>(cutter_->advance(held_, lastCourse_.length));
-  std::vector<double> lengths(reader.count<double>("paths"));
-  const std::vector<Vec3> all = points("pathPoints");
-  paths_.clear();
-  auto from = all.begin();
-  if (reader.read("paths", std::span(lengths))) {
-    for (const double length : lengths) {
-      const auto to = from + std::min(static_cast<std::ptrdiff_t>(length), all.end() - from);
-      paths_.emplace_back(from, to);
-      from = to;
-    }
-  }
+  trace_.restore(reader);
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     const std::string name = "tool" + std::to_string(t);
     std::vector<double> numbers(Pressing::numberCount + 1);

@@ -3,11 +3,11 @@
 
 #include <memory>
 
-#include "components/cutting/blade_course.h"
+#include "components/cutting/blade_track.h"
 #include "components/cutting/cut_facets.h"
 #include "components/cutting/cutter.h"
+#include "components/cutting/incision_trace.h"
 #include "components/cutting/pierce_law.h"
-#include "components/cutting/rest_placement.h"
 #include "core/attribute.h"
 #include "core/interfaces/topology_modifier.h"
 #include "core/link.h"
@@ -147,15 +147,12 @@ class CuttingTopologyModifier final : public TopologyModifier {
   [[nodiscard]] const CutFacets& facets() const { return *facets_; }
 
  private:
-  struct Track {               // of one tool
-    std::vector<Vec3> edge;    // its edge at rest in the last step, empty if not near the body
-    std::vector<Vec3> before;  // and in the step before that
+  struct Track : BladeTrack {
+    using BladeTrack::BladeTrack;
     Pressing pressing;
-    double clearance = 0;  // way that the tool can go without coming near (m)
   };
   void buildComplex();
   void cut(const StepContext& step);
-  [[nodiscard]] bool follow(Tool& tool, Track& track) const;
   [[nodiscard]] bool pierces(const Tool& tool, const Track& track);
   void advance(Tool& tool, const Track& track, const BladeCourse::Course& course);
   [[nodiscard]] bool goesForward(const Tool& tool) const;
@@ -168,7 +165,6 @@ class CuttingTopologyModifier final : public TopologyModifier {
   void apply(const SurfaceEdit& edit);
   void record(bool finish, ConstVec3Span edge, double length);
   void recordHeld();
-  void tracePath(const Tool& tool, const Track& track, const BladeCourse::Course& course);
 
   std::unique_ptr<SimplicialComplex> complex_;
   std::unique_ptr<Cutter> cutter_;
@@ -180,12 +176,12 @@ class CuttingTopologyModifier final : public TopologyModifier {
   std::vector<Track> tracks_;  // one a tool
   Index active_ = -1;          // the tool that cuts
   Blade blade_;
-  std::vector<double> history_;           // poses of the edge that counted, for replay()
-  double wayOut_ = 0;                     // of the blade that cuts, since it was last inside [m]
-  BladeCourse::Course lastCourse_;        // of the blade that cuts
-  std::vector<Vec3> held_;                // the last pose, if not in the history
-  std::vector<std::vector<Vec3>> paths_;  // where edges went through the surface, at rest
-  int failures_ = 0;                      // found by the checks on the way
+  std::vector<double> history_;     // poses of the edge that counted, for replay()
+  double wayOut_ = 0;               // of the blade that cuts, since it was last inside [m]
+  BladeCourse::Course lastCourse_;  // of the blade that cuts
+  std::vector<Vec3> held_;          // the last pose, if not in the history
+  IncisionTrace trace_{0};
+  int failures_ = 0;  // found by the checks on the way
   Limiter busy_{this, "busy", "steps in which a second blade wanted to cut and could not"};
   Limiter lost_{this, "lost",
                 "steps in which the edge of a cutting blade was nowhere near a particle"};

@@ -39,6 +39,7 @@ class MeshTopology final : public Topology {
       {.autolink = true, .aliases = "hexas"}};
 
   void bind() override;
+  [[nodiscard]] bool followsCuts() const override { return true; }
   void topologyChanged(const TopologyChange& change) override;
   void topologyRestored() override;
   [[nodiscard]] ConstVec3Span positions() const override {

@@ -31,6 +31,8 @@ class Topology : public Mesh {
  public:
   static constexpr std::string_view role = "Topology";
 
+  // Whether its triangles change with a cut (topologyChanged).
+  [[nodiscard]] virtual bool followsCuts() const { return false; }
   // Volume that each point stands for (m^3), empty where it has no meaning.
   [[nodiscard]] virtual std::span<const double> volumes() const { return {}; }
   // Closed surface of the solid that the points fill, outward oriented; empty where there is none.
