@@ -186,6 +186,10 @@ void CuttingTopologyModifier::cut(const StepContext&) {
     const bool active = active_ == static_cast<Index>(t);
     const bool near = track.follow(tool, *mechanicalState, *placement_);
     const BladeCourse::Course course = near ? course_->of(track.edge) : BladeCourse::Course{};
+    if (active && wasSet(tool, track)) {
+      leave(false);
+      continue;
+    }
     if (active) {
       // pierced, the tissue may take some steps to close round the blade; and what goes out goes on
       // for a little, so that no bridge is left there
@@ -205,7 +209,7 @@ void CuttingTopologyModifier::cut(const StepContext&) {
       if (goesOn)
         advance(tool, track, course);
       else
-        leave();
+        leave(true);
       continue;
     }
     track.pressing.add(tool);
@@ -312,11 +316,24 @@ void CuttingTopologyModifier::showBlade(Tool& tool, const Track& track,
   }
 }
 
-void CuttingTopologyModifier::leave() {
+// A tool that was set to a new place, not moved there, cuts nothing on the way.
+bool CuttingTopologyModifier::wasSet(const Tool& tool, const Track& track) const {
+  if (track.before.size() != track.edge.size()) return false;
+  const std::vector<Vec3> local = track.points(tool);
+  double atRest = 0, inScene = 0;
+  for (std::size_t k = 0; k < local.size(); ++k) {
+    atRest = std::max(atRest, (track.edge[k] - track.before[k]).norm());
+    inScene = std::max(inScene, (tool.pose() * local[k] - tool.previousPose() * local[k]).norm());
+  }
+  constexpr double tissue = 4;  // which moves too
+  return atRest > meanEdge_ + tissue * inScene;
+}
+
+void CuttingTopologyModifier::leave(bool moved) {
   Tool& tool = *tools.targets()[static_cast<std::size_t>(active_)];
   const std::vector<Vec3>& edge = tracks_[static_cast<std::size_t>(active_)].edge;
   if (cutter_->cutting()) {
-    endCut(edge.empty() || !goesForward(tool)
+    endCut(!moved || edge.empty() || !goesForward(tool)
                ? std::vector<Vec3>()
                : BladeCourse::partNear(edge, lastCourse_, meanEdge_));
   }

@@ -160,7 +160,8 @@ class CuttingTopologyModifier final : public TopologyModifier {
   void endCut(ConstVec3Span edge);
   void sweep(std::vector<Vec3> part, double length);
   void showBlade(Tool& tool, const Track& track, const BladeCourse::Course& course);
-  void leave();
+  [[nodiscard]] bool wasSet(const Tool& tool, const Track& track) const;
+  void leave(bool moved);
   void change(const SurfaceEdit& edit);
   void apply(const SurfaceEdit& edit);
   void record(bool finish, ConstVec3Span edge, double length);

@@ -147,6 +147,32 @@ TEST(Blade, thatLeavesItsSlitSidewaysBeginsAnotherCut) {
   EXPECT_EQ(body.pieces(), 1);
 }
 
+// Half a millimetre a step from the side, then set to the other end of the block.
+TEST(Blade, thatIsSetElsewhereCutsNothingOnTheWay) {
+  CutBlock body({.tools = R"(<ScalpelTool name="scalpel" length="20 mm"/>)"});
+  Tool& tool = body.tool();
+  const auto move = [&](double y) {
+    tool.moveTo({Vec3(6.3e-3, y, -2e-3), Quat::Identity()}, Vec3::Zero(), Vec3::Zero(), false);
+  };
+  for (double y = -3e-3; y < 3e-3; y += 0.5e-3) {
+    move(y);
+    body.step();
+  }
+  ASSERT_TRUE(body.cut->cutting);
+  move(11e-3);
+  move(11e-3);
+  body.step();
+  move(11e-3);
+  body.step();
+  for (double y = 11e-3; y < 15e-3; y += 0.5e-3) {
+    move(y);
+    body.step();
+  }
+  EXPECT_TRUE(body.cut->check().failures.empty());
+  EXPECT_GT(body.cut->changes, 1);
+  EXPECT_EQ(body.pieces(), 1) << "the middle of the block is whole";
+}
+
 TEST(Cuts, thatCrossMakeFourPieces) {
   CutBlock body({.tools = scalpel("scalpel", "0 0.03 0.035 0.04 0.045 0.075",
                                   through + "  6.3 15 30  -3 6.2 30  -3 6.2 -2  15 6.2 -2")});
