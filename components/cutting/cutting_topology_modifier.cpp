@@ -101,6 +101,17 @@ void CuttingTopologyModifier::start() {
     error("cut-twice", "cuts what '" + other->path() + "' cuts", "name all blades in one");
     return;
   }
+  for (std::size_t k = 0; k < tools.targets().size(); ++k) {
+    const Tool* tool = tools.targets()[k];
+    bool taken = std::ranges::find(tools.targets().begin() + static_cast<std::ptrdiff_t>(k) + 1,
+                                   tools.targets().end(), tool) != tools.targets().end();
+    for (const auto* other : collect<CuttingTopologyModifier>(scene().root())) {
+      if (other == this) break;
+      taken =
+          taken || std::ranges::find(other->tools.targets(), tool) != other->tools.targets().end();
+    }
+    if (taken) error(tools, "cut-tool-twice", "'" + tool->path() + "' cuts already: name it once");
+  }
   const System* system = scene().systemOf(*mechanicalState);
   if (!system || system->offsetOf(*mechanicalState) < 0) {
     error(mechanicalState, "cut-particles",
@@ -111,8 +122,11 @@ void CuttingTopologyModifier::start() {
     error(surfaceState, "cut-nodes",
           "'" + surfaceState->path() + "' follows no particles: a surface that is cut is mapped");
   }
-  if (failed()) return;
   const ConstVec3Span rest = mechanicalState->rest();
+  if (!failed() && !(RestPlacement::reachOf(rest) > 0 && meanEdge_ > 0)) {
+    error("cut-size", "cannot be cut: its particles or the points of its surface coincide");
+  }
+  if (failed()) return;
   placement_ = std::make_unique<RestPlacement>(rest, RestPlacement::reachOf(rest));
   std::vector<RestTriangle> outer;
   for (const Triangle& t : topology->triangles()) {
@@ -127,6 +141,12 @@ void CuttingTopologyModifier::start() {
 }
 
 void CuttingTopologyModifier::reset() {
+  // a blade may have set in without having cut anything yet
+  if (!history_.empty() || cutter_->cutting()) topologyRestored();
+  clear();
+}
+
+void CuttingTopologyModifier::clear() {
   for (Tool* tool : tools.targets()) tool->setCutting(false);
   tracks_.assign(tools.targets().size(), Track(bladePoints));
   active_ = -1;
@@ -186,9 +206,12 @@ void CuttingTopologyModifier::cut(const StepContext&) {
     const bool active = active_ == static_cast<Index>(t);
     const bool near = track.follow(tool, *mechanicalState, *placement_);
     const BladeCourse::Course course = near ? course_->of(track.edge) : BladeCourse::Course{};
-    if (active && wasSet(tool, track)) {
-      leave(false);
-      continue;
+    if (near && wasSet(tool, track)) {
+      track.before.clear();
+      if (active) {
+        leave(false);
+        continue;
+      }
     }
     if (active) {
       // pierced, the tissue may take some steps to close round the blade; and what goes out goes on
@@ -221,6 +244,7 @@ void CuttingTopologyModifier::cut(const StepContext&) {
       continue;
     }
     active_ = static_cast<Index>(t);
+    wayOut_ = 0;
     track.pressing.forget();
     tool.setCutting(true);
     cutting.set(true);
@@ -250,14 +274,17 @@ void CuttingTopologyModifier::advance(Tool& tool, const Track& track,
   // from where the edge was just before, so that no bridge is left where it came in
   if (!cutter_->cutting() && !track.before.empty() && course_->of(track.before).inside == 0) {
     const std::vector<Vec3> before = BladeCourse::partNear(track.before, course, meanEdge_);
-    static_cast<void>(cutter_->advance(before, course.length));
-    record(false, before, course.length);
+    if (before.size() > 1) {
+      static_cast<void>(cutter_->advance(before, course.length));
+      record(false, before, course.length);
+    }
   }
   lastCourse_ = course;
   sweep(std::move(part), course.length);
 }
 
 void CuttingTopologyModifier::sweep(std::vector<Vec3> part, double length) {
+  if (part.size() < 2) return;  // the edge has shrunk at rest, and ends before the body
   const Index poses = cutter_->poseCount();
   const SurfaceEdit edit = cutter_->advance(part, length);
   if (cutter_->poseCount() != poses) {
@@ -403,6 +430,7 @@ void CuttingTopologyModifier::recordHeld() {
 }
 
 void CuttingTopologyModifier::replay(StateReader& reader) {
+  if (!history_.empty() || cutter_->cutting()) topologyRestored();
   std::vector<double> poses(reader.count<double>("history"));
   if (!reader.read("history", std::span(poses))) return;
   std::vector<Vec3> edge;
@@ -447,7 +475,7 @@ void CuttingTopologyModifier::save(StateWriter& writer) const {
 }
 
 void CuttingTopologyModifier::restore(StateReader& reader) {
-  reset();
+  clear();
   const auto points = [&](const std::string& name) {
     std::vector<Vec3> values(reader.count<double>(name) / 3);
     if (!reader.read(name, Vec3Span(values))) values.clear();

@@ -37,7 +37,8 @@ class CuttingTopologyModifier final : public TopologyModifier {
   Attribute<PierceCriterion> pierceCriterion{
       this, "pierceCriterion", PierceCriterion::none,
       "When a pressing blade goes in: at a von Mises stress of the tissue at its point (as in the "
-      "cornea paper), at a force, at a work per area that it would cut, or at once."};
+      "cornea paper), at a force, at a work per area that it would cut, or at once. All but the "
+      "last need a contact response to the tool."};
   Attribute<double> pierceStress{this,
                                  "pierceStress",
                                  0.0,
@@ -152,6 +153,7 @@ class CuttingTopologyModifier final : public TopologyModifier {
     Pressing pressing;
   };
   void buildComplex();
+  void clear();
   void cut(const StepContext& step);
   [[nodiscard]] bool pierces(const Tool& tool, const Track& track);
   void advance(Tool& tool, const Track& track, const BladeCourse::Course& course);

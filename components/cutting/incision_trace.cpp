@@ -65,9 +65,10 @@ void IncisionTrace::save(StateWriter& writer) const {
 void IncisionTrace::restore(StateReader& reader) {
   std::vector<double> lengths(reader.count<double>("paths"));
   std::vector<Vec3> points(reader.count<double>("pathPoints") / 3);
-  paths_.clear();
+  paths_.assign(2, {});
   if (!reader.read("paths", std::span(lengths)) || !reader.read("pathPoints", Vec3Span(points)))
     return;
+  paths_.clear();
   auto from = points.begin();
   for (const double length : lengths) {
     const auto to = from + std::min(static_cast<std::ptrdiff_t>(length), points.end() - from);

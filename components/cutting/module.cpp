@@ -13,6 +13,7 @@ PLUGIN(cutting, "0.1.0", "Apache-2.0", "Cutting along blades.")
       .example("scenes/cornea/cut.xml");
   registry.add<stroma::CuttingResistance>("CuttingResistance")
       .doc("The force that cutting takes, on the blade and on the tissue.")
-      .domain("One force a blade, in the middle of its edge inside; found once a step.")
+      .domain(
+          "One force for each piece of the edge that is inside; its factor is found once a step.")
       .example("scenes/cornea/keratome.xml");
 }

@@ -40,6 +40,9 @@ class CGLinearSolver final : public LinearSolver, private Preconditioner {
       this, "lastResidual", 0.0, "|b - A x| / |b| of the last solve.", {.output = true}};
 
   void configure() override;
+  // a cut changes which blocks there are
+  void topologyChanged(const TopologyChange&) override { patternOf_ = nullptr; }
+  void topologyRestored() override { patternOf_ = nullptr; }
   LinearSolution solve(const SystemMatrix& matrix, ConstVec3Span b, Vec3Span x) override;
 
  private:

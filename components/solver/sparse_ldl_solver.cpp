@@ -153,6 +153,7 @@ void SparseLDLSolver::save(StateWriter& writer) const {
 
 void SparseLDLSolver::restore(StateReader& reader) {
   reset();
+  if (cut_) analyzed_ = false;  // the cuts have been made again since the pattern was found
   int shiftedBefore = 0, made = 0;
   if (reader.read("shifted", shiftedBefore)) isShifted_ = shiftedBefore != 0;
   if (reader.read("factorizations", made)) factorizations.set(made);

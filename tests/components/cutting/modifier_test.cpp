@@ -173,6 +173,20 @@ TEST(Blade, thatIsSetElsewhereCutsNothingOnTheWay) {
   EXPECT_EQ(body.pieces(), 1) << "the middle of the block is whole";
 }
 
+// Reset while the blade has set in but cut nothing yet: the next entry is a new one.
+TEST(Blade, forgetsOnResetWhereItHadSetIn) {
+  CutBlock body({.tools = scalpel("scalpel", "0 0.03", through)});
+  while (!body.cut->cutting) body.step();
+  ASSERT_EQ(body.cut->changes, 0);
+  body.scene.reset();
+  body.advanceTo(0.03);
+  CutBlock fresh({.tools = scalpel("scalpel", "0 0.03", through)});
+  fresh.advanceTo(0.03);
+  EXPECT_EQ(body.scene.stateHash(), fresh.scene.stateHash());
+  EXPECT_EQ(body.cut->complex().nodeCount(), fresh.cut->complex().nodeCount());
+  EXPECT_EQ(body.pieces(), 2);
+}
+
 TEST(Cuts, thatCrossMakeFourPieces) {
   CutBlock body({.tools = scalpel("scalpel", "0 0.03 0.035 0.04 0.045 0.075",
                                   through + "  6.3 15 30  -3 6.2 30  -3 6.2 -2  15 6.2 -2")});
