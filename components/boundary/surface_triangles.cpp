@@ -5,7 +5,20 @@
 #include <map>
 #include <numeric>
 
+#include "core/sorted_ids.h"
+
 namespace stroma {
+namespace {
+
+// An id that the list has more than once, -1 if there is none. Negative ones do not count.
+Index repeated(std::vector<Index> ids) {
+  std::ranges::sort(ids);
+  for (std::size_t k = 1; k < ids.size(); ++k)
+    if (ids[k] >= 0 && ids[k] == ids[k - 1]) return ids[k];
+  return -1;
+}
+
+}  // namespace
 
 bool SurfaceTriangles::select(Component& component, const MechanicalState& state,
                               const Topology* topology,
@@ -52,6 +65,12 @@ bool SurfaceTriangles::select(Component& component, const MechanicalState& state
                       "the load acts on a state of surface nodes; is 'state' the right one?");
       return false;
     }
+  }
+  if (const Index twice = repeated(slots_); twice >= 0) {
+    component.error(subset.isSet() ? static_cast<const AttributeBase&>(subset) : given,
+                    "index-twice", "names triangle " + std::to_string(twice) + " more than once",
+                    "its load would count as often");
+    return false;
   }
   foreign_ = std::ranges::find(slots_, -1) != slots_.end();
   build();
@@ -114,9 +133,7 @@ bool SurfaceTriangles::follow(Component& component, const TopologyChange& change
     loaded_[static_cast<std::size_t>(edit.firstNewTriangle) + k] = count();
     this->change(count(), edit.appended[k].nodes);
   }
-  std::ranges::sort(changed_);
-  const auto [repeated, end] = std::ranges::unique(changed_);
-  changed_.erase(repeated, end);
+  sortUnique(changed_);
   return !changed_.empty();
 }
 

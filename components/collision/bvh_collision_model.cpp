@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/snapshot.h"
+#include "core/sorted_ids.h"
 
 namespace stroma {
 
@@ -78,7 +79,15 @@ void BVHCollisionModel::follow(std::uint64_t step) {
 }
 
 void BVHCollisionModel::topologyChanged(const TopologyChange& change) {
-  if (&change.surface != topology.get() || &change.nodes != &state()) return;
+  const bool sameSurface = &change.surface == topology.get(), sameNodes = &change.nodes == &state();
+  if (sameSurface != sameNodes && !warned()) {
+    warning("collision-uncut",
+            "has the " + std::string(sameSurface ? "triangles" : "nodes") +
+                " of what was cut, but " + (sameSurface ? "other nodes" : "other triangles") +
+                ": it stays whole",
+            "'state' and 'topology' must be those of the surface that is cut");
+  }
+  if (!sameSurface || !sameNodes) return;
   cut_ = true;
   const SurfaceEdit& edit = change.edit;
   appendPositions(edit);
@@ -195,9 +204,7 @@ void BVHCollisionModel::nodesInBall(const Vec3& centre, double radius, std::vect
       if ((now_[static_cast<std::size_t>(node)] - centre).norm() <= radius) nodes.push_back(node);
     }
   }
-  std::ranges::sort(nodes);
-  const auto [repeated, end] = std::ranges::unique(nodes);
-  nodes.erase(repeated, end);
+  sortUnique(nodes);
 }
 
 Vec3 BVHCollisionModel::outward(Index triangle, const Vec3& weights) const {

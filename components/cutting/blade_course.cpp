@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "components/cutting/cut_sheet.h"
 #include "components/cutting/exact_predicates.h"
+#include "core/sorted_ids.h"
 
 namespace stroma {
 namespace {
@@ -24,9 +26,11 @@ BladeCourse::BladeCourse(std::vector<RestTriangle> surface, bool closed)
     : surface_(std::move(surface)),
       closed_(closed),
       grid_(meanEdge(surface_)),
+      low_(Vec3::Constant(1e300)),
       high_(Vec3::Constant(-1e300)) {
   for (std::size_t k = 0; k < surface_.size(); ++k) {
     grid_.insert(static_cast<Index>(k), low(surface_[k]), high(surface_[k]));
+    low_ = low_.cwiseMin(low(surface_[k]));
     high_ = high_.cwiseMax(high(surface_[k]));
   }
 }
@@ -34,10 +38,12 @@ BladeCourse::BladeCourse(std::vector<RestTriangle> surface, bool closed)
 // Shares of the segment's length at which it goes through the surface, ascending.
 void BladeCourse::crossings(const Vec3& p, const Vec3& q, std::vector<double>& along) const {
   std::vector<Index> near;
-  grid_.query(p.cwiseMin(q), p.cwiseMax(q), [&](Index k) { near.push_back(k); });
-  std::ranges::sort(near);
-  near.erase(std::unique(near.begin(), near.end()), near.end());
   along.clear();
+  // an edge may be much longer than the body
+  const Vec3 from = p.cwiseMin(q).cwiseMax(low_), to = p.cwiseMax(q).cwiseMin(high_);
+  if ((from.array() > to.array()).any()) return;
+  grid_.query(from, to, [&](Index k) { near.push_back(k); });
+  sortUnique(near);
   for (const Index k : near) {
     const RestTriangle& t = surface_[static_cast<std::size_t>(k)];
     if (!segmentCrossesTriangle(p, q, t[0], t[1], t[2])) continue;
@@ -62,11 +68,7 @@ BladeCourse::Course BladeCourse::of(ConstVec3Span edge) const {
   bool inside = contains(edge.front());
   course.beginsInside = inside;
   std::vector<double> along;
-  const auto add = [&](const Vec3& from, const Vec3& to) {
-    const double length = (to - from).norm();
-    course.inside += length;
-    course.middle += 0.5 * length * (from + to);
-  };
+  const auto add = [&](const Vec3& from, const Vec3& to) { course.inside += (to - from).norm(); };
   for (std::size_t k = 0; k + 1 < edge.size(); ++k) {
     const Vec3 &p = edge[k], &q = edge[k + 1];
     crossings(p, q, along);
@@ -88,17 +90,14 @@ BladeCourse::Course BladeCourse::of(ConstVec3Span edge) const {
     if (inside) add(from, q);
   }
   course.endsInside = inside;
-  if (course.inside > 0) course.middle /= course.inside;
   return course;
 }
 
-std::vector<Vec3> BladeCourse::partNear(ConstVec3Span edge, const Course& course, double margin) {
+std::vector<Vec3> BladeCourse::partNear(ConstVec3Span edge, const Extent& extent, double margin) {
   std::vector<Vec3> part(edge.begin(), edge.end());
-  const bool whole = course.beginsInside && course.endsInside;
-  const bool ring = (edge.front() - edge.back()).norm() <= 1e-9 * course.length;
-  if (whole || ring) return part;
-  const double from = course.beginsInside ? 0 : course.firstAt - margin;
-  const double to = course.endsInside ? course.length : course.lastAt + margin;
+  if ((extent.beginsInside && extent.endsInside) || isRing(edge)) return part;
+  const double from = extent.beginsInside ? 0 : extent.firstAt - margin;
+  const double to = extent.endsInside ? extent.length : extent.lastAt + margin;
   part.clear();
   double along = 0;
   for (std::size_t k = 0; k + 1 < edge.size(); ++k) {

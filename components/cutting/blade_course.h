@@ -17,19 +17,22 @@ class BladeCourse {
   // along the edge counts as inside.
   BladeCourse(std::vector<RestTriangle> surface, bool closed);
 
-  struct Course {
-    double length = 0;                // of the edge [m]
-    double inside = 0;                // length of the edge inside the body [m]
-    Vec3 middle = Vec3::Zero();       // of that part
-    std::optional<Vec3> first, last;  // where the edge goes through the surface, from its beginning
-    double firstAt = 0, lastAt = 0;   // how far along it [m]
+  // From where to where along an edge the body reaches.
+  struct Extent {
+    double length = 0;               // of the edge [m]
+    double firstAt = 0, lastAt = 0;  // first and last crossing of the surface, along the edge [m]
     bool beginsInside = false, endsInside = false;
+  };
+  struct Course : Extent {
+    double inside = 0;                // length of the edge inside the body [m]
+    std::optional<Vec3> first, last;  // where those crossings are
     [[nodiscard]] bool engaged() const { return inside > 0; }
   };
   // `edge`: polyline from heel to tip. One that closes on itself is a ring.
   [[nodiscard]] Course of(ConstVec3Span edge) const;
-  // The part of an edge that `course` has in the body, and `margin` (m) more to both sides.
-  [[nodiscard]] static std::vector<Vec3> partNear(ConstVec3Span edge, const Course& course,
+  // The part of an edge that `extent` has in the body, and `margin` (m) more to both sides; empty
+  // where this edge is too short to come so far.
+  [[nodiscard]] static std::vector<Vec3> partNear(ConstVec3Span edge, const Extent& extent,
                                                   double margin);
   [[nodiscard]] bool contains(const Vec3& point) const;
 
@@ -39,7 +42,7 @@ class BladeCourse {
   std::vector<RestTriangle> surface_;
   bool closed_;
   HashGrid grid_;
-  Vec3 high_;
+  Vec3 low_, high_;
 };
 
 }  // namespace stroma

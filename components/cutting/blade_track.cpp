@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "components/cutting/cut_sheet.h"
+
 namespace stroma {
 namespace {
 
@@ -77,6 +79,7 @@ bool BladeTrack::follow(const Tool& tool, const MechanicalState& particles,
     }
     edge[k] = places[m]->rest + rotationOf(places[m]->inverse) * (now[k] - now[m]);
   }
+  if (isRing(now)) edge.back() = edge.front();  // also where its seam has no particles around
   return true;
 }
 

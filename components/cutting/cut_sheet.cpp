@@ -42,6 +42,14 @@ bool hasArea(const RestTriangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]).sq
 
 }  // namespace
 
+bool isRing(ConstVec3Span polyline) {
+  double length = 0;
+  for (std::size_t k = 1; k < polyline.size(); ++k)
+    length += (polyline[k] - polyline[k - 1]).norm();
+  constexpr double nearly = 1e-9;
+  return polyline.size() > 3 && (polyline.front() - polyline.back()).norm() <= nearly * length;
+}
+
 // === Sheet
 
 CutSheet::CutSheet(double spacing, double longest) : spacing_(spacing), longest_(longest) {
@@ -104,7 +112,7 @@ Index CutSheet::addPose(ConstVec3Span blade) {
   if (rows_.empty()) {
     double length = 0;
     for (std::size_t k = 1; k < blade.size(); ++k) length += (blade[k] - blade[k - 1]).norm();
-    closed_ = blade.size() > 3 && (blade.front() - blade.back()).norm() <= 1e-9 * length;
+    closed_ = isRing(blade);
     length = std::max(length, longest_);
     columns_ =
         std::max<Index>(2, 1 + static_cast<Index>(std::ceil(length / (columnWidth * spacing_))));

@@ -12,6 +12,9 @@
 
 namespace stroma {
 
+// Whether a polyline of more than three points ends where it begins.
+[[nodiscard]] bool isRing(ConstVec3Span polyline);
+
 class CutSheet {
  public:
   // `spacing`: local size of the body's mesh [m]. Rows are about half of it apart, columns at most

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "core/sorted_ids.h"
+
 namespace stroma {
 namespace {
 
@@ -212,8 +214,7 @@ void Cutter::findNear(const SheetWindow& window) {
   for (const Index t : near_)
     for (int i = 0; i < complex_.corners(); ++i)
       nearVertices_.push_back(complex_.simplex(t)[at(i)]);
-  std::sort(nearVertices_.begin(), nearVertices_.end());
-  nearVertices_.erase(std::unique(nearVertices_.begin(), nearVertices_.end()), nearVertices_.end());
+  sortUnique(nearVertices_);
 }
 
 void Cutter::tag(Index v, const SheetWindow& window) {

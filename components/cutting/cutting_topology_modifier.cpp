@@ -4,11 +4,25 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "components/cutting/cut_invariants.h"
 #include "core/scene.h"
 #include "core/traverse.h"
 
 namespace stroma {
+namespace {
+
+double largestDistance(ConstVec3Span a, ConstVec3Span b) {
+  double most = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, (a[k] - b[k]).norm());
+  return most;
+}
+
+std::vector<Vec3> placed(const Pose& pose, std::vector<Vec3> points) {
+  for (Vec3& p : points) p = pose * p;
+  return points;
+}
+
+}  // namespace
+
 void CuttingTopologyModifier::configure() {
   const auto require = [&](PierceCriterion criterion, const Attribute<double>& limit) {
     if (pierceCriterion == criterion && !limit.isSet()) {
@@ -101,16 +115,14 @@ void CuttingTopologyModifier::start() {
     error("cut-twice", "cuts what '" + other->path() + "' cuts", "name all blades in one");
     return;
   }
-  for (std::size_t k = 0; k < tools.targets().size(); ++k) {
-    const Tool* tool = tools.targets()[k];
-    bool taken = std::ranges::find(tools.targets().begin() + static_cast<std::ptrdiff_t>(k) + 1,
-                                   tools.targets().end(), tool) != tools.targets().end();
-    for (const auto* other : collect<CuttingTopologyModifier>(scene().root())) {
-      if (other == this) break;
-      taken =
-          taken || std::ranges::find(other->tools.targets(), tool) != other->tools.targets().end();
+  std::vector<const Tool*> taken;
+  for (const auto* other : collect<CuttingTopologyModifier>(scene().root())) {
+    for (const Tool* tool : other->tools.targets()) {
+      if (other == this && std::ranges::find(taken, tool) != taken.end())
+        error(tools, "cut-tool-twice", "'" + tool->path() + "' cuts already: name it once");
+      taken.push_back(tool);
     }
-    if (taken) error(tools, "cut-tool-twice", "'" + tool->path() + "' cuts already: name it once");
+    if (other == this) break;
   }
   const System* system = scene().systemOf(*mechanicalState);
   if (!system || system->offsetOf(*mechanicalState) < 0) {
@@ -151,7 +163,6 @@ void CuttingTopologyModifier::clear() {
   tracks_.assign(tools.targets().size(), Track(bladePoints));
   active_ = -1;
   blade_ = {};
-  held_.clear();
   wayOut_ = 0;
   failures_ = 0;
   cutting.set(false);
@@ -159,9 +170,6 @@ void CuttingTopologyModifier::clear() {
   addedEnergy.set(0);
   engagedLength.set(0);
   tipStress.set(0);
-  Index count = 1;
-  static_cast<void>(complex_->pieces(count));
-  pieces.set(count);
 }
 
 void CuttingTopologyModifier::topologyRestored() {
@@ -192,54 +200,41 @@ bool CuttingTopologyModifier::pierces(const Tool& tool, const Track& track) {
   const Vec3 guess = track.edge.empty() ? pressing.point() : track.edge.back();
   const auto place = placement_->find(pressing.point(), guess, now.x);
   if (!place) return false;
-  tipStress.set(vonMisesNear(*forceField, now, placement_->around(place->rest)));
-  return tipStress >= pierceStress;
+  const double stress = vonMisesNear(*forceField, now, placement_->around(place->rest));
+  tipStress.set(std::max<double>(tipStress, stress));
+  return stress >= pierceStress;
 }
 
 void CuttingTopologyModifier::cut(const StepContext&) {
   blade_ = {};
   engagedLength.set(0);
   tipStress.set(0);
+  const Index before = active_;
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     Tool& tool = *tools.targets()[t];
     Track& track = tracks_[t];
-    const bool active = active_ == static_cast<Index>(t);
     const bool near = track.follow(tool, *mechanicalState, *placement_);
     const BladeCourse::Course course = near ? course_->of(track.edge) : BladeCourse::Course{};
-    if (near && wasSet(tool, track)) {
-      track.before.clear();
-      if (active) {
-        leave(false);
-        continue;
-      }
-    }
-    if (active) {
-      // pierced, the tissue may take some steps to close round the blade; and what goes out goes on
-      // for a little, so that no bridge is left there
-      constexpr double farOut = 0.5;  // edges
-      if (course.engaged()) {
-        wayOut_ = 0;
-      } else if (near && track.before.size() == track.edge.size()) {
-        double moved = 0;
-        for (std::size_t k = 0; k < track.edge.size(); ++k)
-          moved = std::max(moved, (track.edge[k] - track.before[k]).norm());
-        wayOut_ += moved;
-      }
-      const bool goesOn =
-          near && (course.engaged() || !cutter_->cutting() || wayOut_ < farOut * meanEdge_) &&
-          (!needsTrigger || tool.active());
+    const bool set = near && wasSet(tool, track);
+    if (set) track.before.clear();
+    if (before == static_cast<Index>(t)) {
       if (!near && cutter_->cutting()) ++lost_;
-      if (goesOn)
-        advance(tool, track, course);
+      if (set || !staysIn(track, near, course) || (needsTrigger && !tool.active()))
+        leave(!set);
       else
-        leave(true);
+        advance(tool, track, course);
       continue;
     }
     track.pressing.add(tool);
     const bool atOnce = pierceCriterion == PierceCriterion::none && course.engaged() &&
                         (!needsTrigger || tool.active());
-    if (!atOnce && !pierces(tool, track)) continue;
-    if (active_ >= 0) {
+    if (!atOnce && !pierces(tool, track)) {
+      constexpr double deep = 0.25;  // edges; contacts of this step are not known yet
+      const bool unpressed = course.inside > deep * meanEdge_ && !track.pressing.touches();
+      if (pierceCriterion != PierceCriterion::none && unpressed) ++untouched_;
+      continue;
+    }
+    if (active_ >= 0 || before >= 0) {  // also one that has left in this step: one change a step
       ++busy_;
       continue;
     }
@@ -249,16 +244,30 @@ void CuttingTopologyModifier::cut(const StepContext&) {
     tool.setCutting(true);
     cutting.set(true);
     trace_.begin();
-    if (!course.engaged()) continue;
     advance(tool, track, course);
   }
+}
+
+// What goes out goes on for a little, so that no bridge is left there; and a blade that has pierced
+// may go a little while the tissue closes round it.
+bool CuttingTopologyModifier::staysIn(const Track& track, bool near,
+                                      const BladeCourse::Course& course) {
+  if (!near) return false;
+  if (course.engaged()) {
+    wayOut_ = 0;
+    return true;
+  }
+  if (track.before.size() == track.edge.size())
+    wayOut_ += largestDistance(track.before, track.edge);
+  const double most = cutter_->cutting() ? 0.5 : 1.0;  // edges
+  return wayOut_ < most * meanEdge_;
 }
 
 void CuttingTopologyModifier::advance(Tool& tool, const Track& track,
                                       const BladeCourse::Course& course) {
   if (!course.engaged()) {
     if (cutter_->cutting() && goesForward(tool))
-      sweep(BladeCourse::partNear(track.edge, lastCourse_, meanEdge_), lastCourse_.length);
+      sweep(BladeCourse::partNear(track.edge, lastExtent_, meanEdge_), lastExtent_.length);
     return;
   }
   showBlade(tool, track, course);
@@ -273,33 +282,22 @@ void CuttingTopologyModifier::advance(Tool& tool, const Track& track,
   trace_.add(tool, track.edge, course);
   // from where the edge was just before, so that no bridge is left where it came in
   if (!cutter_->cutting() && !track.before.empty() && course_->of(track.before).inside == 0) {
-    const std::vector<Vec3> before = BladeCourse::partNear(track.before, course, meanEdge_);
-    if (before.size() > 1) {
-      static_cast<void>(cutter_->advance(before, course.length));
-      record(false, before, course.length);
-    }
+    sweep(BladeCourse::partNear(track.before, course, meanEdge_), course.length);
   }
-  lastCourse_ = course;
+  lastExtent_ = course;
   sweep(std::move(part), course.length);
 }
 
 void CuttingTopologyModifier::sweep(std::vector<Vec3> part, double length) {
-  if (part.size() < 2) return;  // the edge has shrunk at rest, and ends before the body
-  const Index poses = cutter_->poseCount();
-  const SurfaceEdit edit = cutter_->advance(part, length);
-  if (cutter_->poseCount() != poses) {
-    recordHeld();
-    record(false, part, length);
-  } else {
-    held_ = std::move(part);
-  }
-  apply(edit);
+  if (!part.empty()) apply(history_.advance(*cutter_, std::move(part), length));
 }
 
+// By the mean motion of the edge: it may turn about its tip.
 bool CuttingTopologyModifier::goesForward(const Tool& tool) const {
   const Vec3 way = tool.cuttingDirection();
   if (way.isZero()) return true;
-  const Vec3 moved = tool.pose() * Vec3::Zero() - tool.previousPose() * Vec3::Zero();
+  Vec3 moved = Vec3::Zero();
+  for (const Vec3& p : tool.edge()) moved += tool.pose() * p - tool.previousPose() * p;
   return moved.dot(tool.pose().orientation * way) > 0;
 }
 
@@ -310,15 +308,7 @@ bool CuttingTopologyModifier::inOldSlit() const {
   });
 }
 
-void CuttingTopologyModifier::endCut(ConstVec3Span edge) {
-  const SurfaceEdit edit = cutter_->finish(edge);
-  recordHeld();
-  record(true, edge, 0);
-  apply(edit);
-  Index count = 1;
-  static_cast<void>(complex_->pieces(count));
-  pieces.set(count);
-}
+void CuttingTopologyModifier::endCut(ConstVec3Span edge) { apply(history_.finish(*cutter_, edge)); }
 
 void CuttingTopologyModifier::showBlade(Tool& tool, const Track& track,
                                         const BladeCourse::Course& course) {
@@ -346,14 +336,11 @@ void CuttingTopologyModifier::showBlade(Tool& tool, const Track& track,
 // A tool that was set to a new place, not moved there, cuts nothing on the way.
 bool CuttingTopologyModifier::wasSet(const Tool& tool, const Track& track) const {
   if (track.before.size() != track.edge.size()) return false;
-  const std::vector<Vec3> local = track.points(tool);
-  double atRest = 0, inScene = 0;
-  for (std::size_t k = 0; k < local.size(); ++k) {
-    atRest = std::max(atRest, (track.edge[k] - track.before[k]).norm());
-    inScene = std::max(inScene, (tool.pose() * local[k] - tool.previousPose() * local[k]).norm());
-  }
+  const std::vector<Vec3> points = track.points(tool);
+  const double inScene =
+      largestDistance(placed(tool.previousPose(), points), placed(tool.pose(), points));
   constexpr double tissue = 4;  // which moves too
-  return atRest > meanEdge_ + tissue * inScene;
+  return largestDistance(track.before, track.edge) > meanEdge_ + tissue * inScene;
 }
 
 void CuttingTopologyModifier::leave(bool moved) {
@@ -362,7 +349,7 @@ void CuttingTopologyModifier::leave(bool moved) {
   if (cutter_->cutting()) {
     endCut(!moved || edge.empty() || !goesForward(tool)
                ? std::vector<Vec3>()
-               : BladeCourse::partNear(edge, lastCourse_, meanEdge_));
+               : BladeCourse::partNear(edge, lastExtent_, meanEdge_));
   }
   tool.setCutting(false);
   cutting.set(false);
@@ -389,8 +376,12 @@ void CuttingTopologyModifier::apply(const SurfaceEdit& edit) {
 }
 
 TopologyCheck CuttingTopologyModifier::check() const {
+  return check(checkInvariants(*complex_, volume_));
+}
+
+TopologyCheck CuttingTopologyModifier::check(const SurfaceNumbers& surface) const {
   TopologyCheck report{*mechanicalState, *surfaceState, *topology, *facets_, 0, {}};
-  report.failures = checkInvariants(*complex_, volume_).failures;
+  report.failures = surface.failures;
   if (!std::ranges::equal(topology->triangles(), complex_->surface()))
     report.failures.push_back("'" + topology->path() + "' has other triangles than were cut");
   if (surfaceState->size() != complex_->nodeCount())
@@ -403,8 +394,8 @@ std::vector<std::pair<std::string, double>> CuttingTopologyModifier::lastValues(
   if (!course_) return {};
   Index count = 1;
   static_cast<void>(complex_->pieces(count));
-  const TopologyCheck report = check();
   const SurfaceNumbers numbers = checkInvariants(*complex_, volume_);
+  const TopologyCheck report = check(numbers);
   const IncisionTrace::Measure incision = trace_.measure(*complex_);
   return {{"pieces", count},
           {"incision_length", incision.length},
@@ -417,50 +408,20 @@ std::vector<std::pair<std::string, double>> CuttingTopologyModifier::lastValues(
           {"sliver_fraction", numbers.sliverFraction}};
 }
 
-// A pose as 1, number of points, length of the edge, points; the end of a cut with 0 in front.
-void CuttingTopologyModifier::record(bool finish, ConstVec3Span edge, double length) {
-  history_.insert(history_.end(), {finish ? 0.0 : 1.0, static_cast<double>(edge.size()), length});
-  for (const Vec3& p : edge) history_.insert(history_.end(), {p.x(), p.y(), p.z()});
-}
-
-// A pose that made no difference yet may do so by what comes next.
-void CuttingTopologyModifier::recordHeld() {
-  if (!held_.empty()) record(false, held_, lastCourse_.length);
-  held_.clear();
-}
-
 void CuttingTopologyModifier::replay(StateReader& reader) {
   if (!history_.empty() || cutter_->cutting()) topologyRestored();
-  std::vector<double> poses(reader.count<double>("history"));
-  if (!reader.read("history", std::span(poses))) return;
-  std::vector<Vec3> edge;
-  for (std::size_t k = 0; k + 2 < poses.size();) {
-    const bool finish = poses[k] == 0;
-    const auto points = static_cast<std::size_t>(poses[k + 1]);
-    lastCourse_.length = poses[k + 2];
-    k += 3;
-    if (points > (poses.size() - k) / 3) return;
-    edge.clear();
-    for (std::size_t p = 0; p < points; ++p, k += 3)
-      edge.push_back({poses[k], poses[k + 1], poses[k + 2]});
-    const SurfaceEdit edit =
-        finish ? cutter_->finish(edge) : cutter_->advance(edge, lastCourse_.length);
-    if (!edit.empty()) change(edit);
-  }
-  history_ = std::move(poses);
+  history_.replay(reader, *cutter_, [this](const SurfaceEdit& edit) { change(edit); });
 }
 
 void CuttingTopologyModifier::save(StateWriter& writer) const {
-  writer.write("history", std::span<const double>(history_));
-  writer.write("held", ConstVec3Span(held_));
-  const std::array<double, 5> last{lastCourse_.length, lastCourse_.firstAt, lastCourse_.lastAt,
-                                   lastCourse_.beginsInside ? 1.0 : 0.0,
-                                   lastCourse_.endsInside ? 1.0 : 0.0};
-  writer.write("lastCourse", std::span<const double>(last));
+  history_.save(writer);
+  const std::array<double, 5> extent{lastExtent_.length, lastExtent_.firstAt, lastExtent_.lastAt,
+                                     lastExtent_.beginsInside ? 1.0 : 0.0,
+                                     lastExtent_.endsInside ? 1.0 : 0.0};
+  writer.write("extent", std::span<const double>(extent));
   writer.write("active", active_);
   writer.write("wayOut", wayOut_);
   writer.write("changes", changes.value());
-  writer.write("pieces", pieces.value());
   writer.write("failures", failures_);
   writer.write("addedEnergy", addedEnergy.value());
   trace_.save(writer);
@@ -481,9 +442,8 @@ void CuttingTopologyModifier::restore(StateReader& reader) {
     if (!reader.read(name, Vec3Span(values))) values.clear();
     return values;
   };
-  int made = 0, count = 1;
+  int made = 0;
   if (reader.read("changes", made)) changes.set(made);
-  if (reader.read("pieces", count)) pieces.set(count);
   static_cast<void>(reader.read("failures", failures_));
   double energy = 0;
   if (reader.read("addedEnergy", energy)) addedEnergy.set(energy);
@@ -492,20 +452,9 @@ void CuttingTopologyModifier::restore(StateReader& reader) {
   if (active_ >= static_cast<Index>(tracks_.size())) active_ = -1;
   cutting.set(active_ >= 0);
   if (active_ >= 0) tools.targets()[static_cast<std::size_t>(active_)]->setCutting(true);
-  std::array<double, 5> last{};
-  if (reader.read("lastCourse", std::span<double>(last))) {
-    lastCourse_ = {.length = last[0],
-                   .inside = 0,
-                   .middle = Vec3::Zero(),
-                   .first = {},
-                   .last = {},
-                   .firstAt = last[1],
-                   .lastAt = last[2],
-                   .beginsInside = last[3] != 0,
-                   .endsInside = last[4] != 0};
-  }
-  held_ = points("held");
-  if (!held_.empty()) static_cast<void>(cutter_->advance(held_, lastCourse_.length));
+  std::array<double, 5> extent{};
+  if (reader.read("extent", std::span<double>(extent)))
+    lastExtent_ = {extent[0], extent[1], extent[2], extent[3] != 0, extent[4] != 0};
   trace_.restore(reader);
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     const std::string name = "tool" + std::to_string(t);

@@ -5,6 +5,8 @@
 
 #include "components/cutting/blade_track.h"
 #include "components/cutting/cut_facets.h"
+#include "components/cutting/cut_history.h"
+#include "components/cutting/cut_invariants.h"
 #include "components/cutting/cutter.h"
 #include "components/cutting/incision_trace.h"
 #include "components/cutting/pierce_law.h"
@@ -75,8 +77,6 @@ class CuttingTopologyModifier final : public TopologyModifier {
       {.min = 0}};
   Attribute<bool> cutting{this, "cutting", false, "A blade is inside.", {.output = true}};
   Attribute<int> changes{this, "changes", 0, "Topology changes so far.", {.output = true}};
-  Attribute<int> pieces{
-      this, "pieces", 1, "Pieces of the body when a blade last left it.", {.output = true}};
   Attribute<double> addedEnergy{
       this,
       "addedEnergy",
@@ -156,6 +156,8 @@ class CuttingTopologyModifier final : public TopologyModifier {
   void clear();
   void cut(const StepContext& step);
   [[nodiscard]] bool pierces(const Tool& tool, const Track& track);
+  // Whether the blade that cuts goes on to do so.
+  [[nodiscard]] bool staysIn(const Track& track, bool near, const BladeCourse::Course& course);
   void advance(Tool& tool, const Track& track, const BladeCourse::Course& course);
   [[nodiscard]] bool goesForward(const Tool& tool) const;
   [[nodiscard]] bool inOldSlit() const;
@@ -164,10 +166,9 @@ class CuttingTopologyModifier final : public TopologyModifier {
   void showBlade(Tool& tool, const Track& track, const BladeCourse::Course& course);
   [[nodiscard]] bool wasSet(const Tool& tool, const Track& track) const;
   void leave(bool moved);
+  [[nodiscard]] TopologyCheck check(const SurfaceNumbers& surface) const;
   void change(const SurfaceEdit& edit);
   void apply(const SurfaceEdit& edit);
-  void record(bool finish, ConstVec3Span edge, double length);
-  void recordHeld();
 
   std::unique_ptr<SimplicialComplex> complex_;
   std::unique_ptr<Cutter> cutter_;
@@ -179,13 +180,15 @@ class CuttingTopologyModifier final : public TopologyModifier {
   std::vector<Track> tracks_;  // one a tool
   Index active_ = -1;          // the tool that cuts
   Blade blade_;
-  std::vector<double> history_;     // poses of the edge that counted, for replay()
+  CutHistory history_;
   double wayOut_ = 0;               // of the blade that cuts, since it was last inside [m]
-  BladeCourse::Course lastCourse_;  // of the blade that cuts
-  std::vector<Vec3> held_;          // the last pose, if not in the history
+  BladeCourse::Extent lastExtent_;  // of the blade that cuts
   IncisionTrace trace_{0};
   int failures_ = 0;  // found by the checks on the way
   Limiter busy_{this, "busy", "steps in which a second blade wanted to cut and could not"};
+  Limiter untouched_{this, "untouched",
+                     "steps in which an edge was inside without having pressed: the criterion of "
+                     "piercing needs a contact response to the tool"};
   Limiter lost_{this, "lost",
                 "steps in which the edge of a cutting blade was nowhere near a particle"};
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "components/cutting/cut_sheet.h"
 #include "components/cutting/seam_measure.h"
 
 namespace stroma {
@@ -14,7 +15,7 @@ void IncisionTrace::add(const Tool& tool, ConstVec3Span edge, const BladeCourse:
   };
   std::vector<Vec3>&other = paths_[paths_.size() - 2], &own = paths_.back();
   const std::span<const Vec3> shape = tool.edge();
-  if (shape.front() == shape.back()) {
+  if (isRing(shape)) {
     constexpr double whole = 0.99;
     if (own.empty() && course.inside > whole * course.length) own.assign(edge.begin(), edge.end());
     return;

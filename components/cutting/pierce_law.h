@@ -25,7 +25,8 @@ struct EnumNames<PierceCriterion> {
 // What a blade has done to the surface since it touched.
 class Pressing {
  public:
-  // Contacts at the end of a step in which the tool moved from its previous pose to its pose.
+  // At the beginning of a step: the contacts that the last one ended with act while the tool moves
+  // from its previous pose to its pose.
   void add(const Tool& tool);
   void forget() { *this = {}; }
 

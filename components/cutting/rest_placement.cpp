@@ -75,28 +75,23 @@ bool RestPlacement::fit(const Vec3& at, ConstVec3Span x, Vec3& image, Mat3& F) c
   return true;
 }
 
-std::optional<Vec3> RestPlacement::imageOf(const Vec3& rest, ConstVec3Span x) const {
-  Vec3 image;
-  Mat3 F;
-  return fit(rest, x, image, F) ? std::optional(image) : std::nullopt;
-}
-
 std::optional<RestPlacement::Place> RestPlacement::find(const Vec3& point, const Vec3& guess,
                                                         ConstVec3Span x) const {
   constexpr int mostIterations = 20;
-  constexpr double accuracy = 1e-4;  // of the reach
+  constexpr double accuracy = 1e-4, least = 0.05;  // of the reach
   Vec3 at = guess, image;
-  Mat3 F;
+  Mat3 F, inverse;
+  double length = 0;
   for (int iteration = 0; iteration < mostIterations; ++iteration) {
     if (!fit(at, x, image, F)) return std::nullopt;
-    const Mat3 inverse = F.inverse();
+    inverse = F.inverse();
     Vec3 step = inverse * (point - image);
-    const double length = step.norm();
+    length = step.norm();
     if (length > 0.5 * reach_) step *= 0.5 * reach_ / length;
     at += step;
-    if (length < accuracy * reach_) return Place{at, inverse};
+    if (length < accuracy * reach_) break;
   }
-  return fit(at, x, image, F) ? std::optional(Place{at, F.inverse()}) : std::nullopt;
+  return length < least * reach_ ? std::optional(Place{at, inverse}) : std::nullopt;
 }
 
 }  // namespace stroma

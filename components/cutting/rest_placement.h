@@ -23,11 +23,10 @@ class RestPlacement {
   RestPlacement(ConstVec3Span rest, double reach);
 
   // Nothing where no particles are around: then the point is outside the body, by more than about
-  // the reach. `guess`: a rest position near the answer.
+  // the reach; or where the motion is too wild to be inverted to a twentieth of the reach. `guess`:
+  // a rest position near the answer.
   [[nodiscard]] std::optional<Place> find(const Vec3& point, const Vec3& guess,
                                           ConstVec3Span x) const;
-  // Where a rest position is now; nothing where no particles are around.
-  [[nodiscard]] std::optional<Vec3> imageOf(const Vec3& rest, ConstVec3Span x) const;
   // Particles within the reach of a rest position, ascending.
   [[nodiscard]] std::vector<Index> around(const Vec3& rest) const;
   [[nodiscard]] double reach() const { return reach_; }

@@ -4,17 +4,13 @@
 #include <limits>
 
 #include "components/cutting/simplicial_complex.h"
+#include "core/sorted_ids.h"
 
 namespace stroma {
 namespace {
 
 // Slot of a facet that is being freed: it blocks already but has no surface triangle yet.
 constexpr Index pendingSlot = std::numeric_limits<Index>::max();
-
-void sortUnique(std::vector<Index>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
 
 }  // namespace
 

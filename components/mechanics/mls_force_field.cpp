@@ -325,7 +325,7 @@ std::shared_ptr<RidingPoints> MLSForceField::shapeOf(ConstVec3Span points,
       std::ranges::equal(triangles, closed_.triangles)) {
     return boundaryShape_;
   }
-  const Gradients& gradients = plainGradients_.values.empty() ? gradients_ : plainGradients_;
+  const Gradients& gradients = plainGradients();
   const ConstVec3Span X = mechanicalState->rest();
   auto riding = std::make_shared<RidingPoints>();
   riding->supports = supports;

@@ -229,9 +229,9 @@ class MLSForceField final : public ForceField, public StressField {
   [[nodiscard]] const std::optional<ProjectionReport>& projectionReport() const {
     return projection_;
   }
-  // Of the last cut; none where nothing was projected.
-  [[nodiscard]] const std::optional<ProjectionReport>& cutProjectionReport() const {
-    return cut_->projection;
+  // Of the last cut; null where nothing was projected.
+  [[nodiscard]] const ProjectionReport* cutProjectionReport() const {
+    return cut_ && cut_->projection ? &*cut_->projection : nullptr;
   }
 
   // Who divides these particles, or null; known from start() on.
@@ -277,7 +277,7 @@ class MLSForceField final : public ForceField, public StressField {
   [[nodiscard]] std::unique_ptr<Law> makeLaw() const;
   void publishStress(const StepContext& step);
 
-  [[nodiscard]] Gradients& plainGradients() {
+  [[nodiscard]] const Gradients& plainGradients() const {
     return plainGradients_.values.empty() ? gradients_ : plainGradients_;
   }
   [[nodiscard]] std::vector<Index> relinkRows(const CutBarrier& barrier);

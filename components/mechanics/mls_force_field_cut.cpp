@@ -6,16 +6,12 @@
 
 #include "components/mechanics/mls_force_field.h"
 #include "core/scene.h"
+#include "core/sorted_ids.h"
 #include "core/traverse.h"
 #include "core/triangle.h"
 
 namespace stroma {
 namespace {
-
-void sortUnique(std::vector<Index>& ids) {
-  std::ranges::sort(ids);
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
 
 // The rows and their neighbours, `rings` times over; ascending.
 std::vector<Index> ringsAround(const Neighbourhoods& n, std::span<const Index> rows, int rings) {
@@ -64,12 +60,8 @@ void MLSForceField::start() {
 }
 
 CutParticles MLSForceField::cutParticles() const {
-  return {mechanicalState->rest(),
-          neighbourhoods_,
-          plainGradients_.values.empty() ? gradients_ : plainGradients_,
-          cut_->search,
-          cut_->newFacets,
-          cut_->relinked};
+  return {mechanicalState->rest(), neighbourhoods_, plainGradients(), cut_->search,
+          cut_->newFacets,         cut_->relinked};
 }
 
 void MLSForceField::topologyChanged(const TopologyChange& change) {
@@ -217,7 +209,7 @@ void MLSForceField::checkRow(Index i, const CutBarrier& barrier, Failures& failu
   std::vector<char> blocked(ends.size(), 0), back(1, 0);
   barrier.block(X[i], ends, blocked);
   Mat3 sum = Mat3::Zero(), plainSum = Mat3::Zero();
-  const Gradients& plain = plainGradients_.values.empty() ? gradients_ : plainGradients_;
+  const Gradients& plain = plainGradients();
   for (Index k = 0; k < row.size; ++k) {
     const Index slot = row.begin + k, j = neighbourhoods_.neighbours[slot];
     if (blocked[k]) failures.add("has a neighbour behind a cut", i);

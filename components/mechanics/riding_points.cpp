@@ -5,14 +5,10 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "core/sorted_ids.h"
 
 namespace stroma {
 namespace {
-
-void sortUnique(std::vector<Index>& ids) {
-  std::ranges::sort(ids);
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
 
 bool seesAll(const Vec3& eye, std::span<const Index> carriers, ConstVec3Span X,
              const CutBarrier& barrier) {

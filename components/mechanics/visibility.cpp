@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/parallel.h"
+#include "core/sorted_ids.h"
 
 namespace stroma {
 namespace {
@@ -34,11 +35,6 @@ double reachOf(ConstVec3Span X, const Neighbourhoods& n, Index i) {
 // From a point to a particle that could carry it.
 double carryingDistance(const Neighbourhoods& n, Index i, const Vec3& offset) {
   return n.axes.empty() ? offset.norm() : n.distance(i, offset);
-}
-
-void sortUnique(std::vector<Index>& ids) {
-  std::ranges::sort(ids);
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
 }  // namespace

@@ -34,8 +34,9 @@ class Tool : public Component {
   // Points, in the tool's frame, where it touches, each a sphere of radius() (m, may be 0).
   [[nodiscard]] virtual std::span<const Vec3> samplePoints() const = 0;
   [[nodiscard]] virtual double radius() const = 0;
-  // Cutting edge as a polyline in the tool's frame, from heel to tip; empty for tools that do not
-  // cut.
+  // Cutting edge as a polyline in the tool's frame, whose handle lies towards +z; empty for tools
+  // that do not cut. It runs from heel to tip, on to the other heel if the blade has two sides, or
+  // round to where it began if it is a ring.
   [[nodiscard]] virtual std::span<const Vec3> edge() const = 0;
   // The way in which the edge cuts, a unit vector in the tool's frame; zero where it cuts in all.
   [[nodiscard]] virtual Vec3 cuttingDirection() const { return Vec3::Zero(); }

@@ -67,6 +67,31 @@ TEST(Pierce, notBelowTheThreshold) {
   }
 }
 
+TEST(Pierce, byNothingWithoutContactIsCounted) {
+  BlockOptions options = pressing(R"(pierceCriterion="force" pierceForce="5 mN")");
+  options.contact.clear();
+  CutBlock body(options);
+  body.advanceTo(0.04);
+  EXPECT_EQ(body.cut->changes, 0);
+  EXPECT_GT(body.count("untouched"), 10u);
+}
+
+// A blade pierces as it presses, and draws back at once, before the tissue has closed round it.
+TEST(Pierce, isUndoneByDrawingBack) {
+  BlockOptions options{
+      .tools = scalpel("scalpel", "0 0.02 0.03 0.04 0.05",
+                       "6.3 6.2 8  6.3 6.2 7.2  6.3 6.2 11  6.3 6.2 11  6.3 6.2 9"),
+      .cut = R"(pierceCriterion="force" pierceForce="5 mN")",
+      .contact = contact};
+  CutBlock body(options);
+  while (!body.cut->cutting && body.scene.stepCount() < 20) body.step();
+  ASSERT_TRUE(body.cut->cutting);
+  body.advanceTo(0.038);
+  EXPECT_FALSE(body.cut->cutting);
+  EXPECT_FALSE(body.tool().cutting()) << "it must pierce again";
+  EXPECT_EQ(body.count("untouched"), 0u);
+}
+
 // Scalpels from the side, at 0.6 mm a step, deep enough to cut right through unless they stop.
 const std::string through = "6.3 -3 -2  6.3 15 -2";
 
@@ -106,7 +131,7 @@ TEST(Blade, thatCutsThroughLeavesTwoPieces) {
   CutBlock body({.tools = scalpel("scalpel", "0 0.03", through)});
   const Index triangles = static_cast<Index>(body.cut->surface().triangles().size());
   body.advanceTo(0.03);
-  EXPECT_EQ(body.cut->pieces, 2);
+  EXPECT_EQ(body.pieces(), 2);
   EXPECT_FALSE(body.cut->cutting);
   EXPECT_FALSE(body.tool().cutting());
   EXPECT_EQ(body.cut->engagedLength, 0);
@@ -118,7 +143,7 @@ TEST(Blade, thatStopsHalfWayLeavesOnePiece) {
   body.advanceTo(0.03);
   EXPECT_GT(body.cut->changes, 0);
   EXPECT_FALSE(body.cut->cutting);
-  EXPECT_EQ(body.cut->pieces, 1);
+  EXPECT_EQ(body.pieces(), 1);
 }
 
 TEST(Blade, toAndFroInItsSlitCutsNothing) {
@@ -173,6 +198,28 @@ TEST(Blade, thatIsSetElsewhereCutsNothingOnTheWay) {
   EXPECT_EQ(body.pieces(), 1) << "the middle of the block is whole";
 }
 
+// A blade with a width cuts one way, also when it turns about its tip, and not the other.
+TEST(Blade, thatTurnsAboutItsTipCutsForwardOnly) {
+  for (const double way : {1.0, -1.0}) {
+    CutBlock body({.tools = R"(<ScalpelTool name="scalpel" length="20 mm" width="0.1 mm"/>)"});
+    Tool& tool = body.tool();
+    const auto turn = [&](double angle) {
+      const Quat orientation(Eigen::AngleAxisd(way * angle, Vec3::UnitY()));
+      tool.moveTo({Vec3(6e-3, 6.2e-3, -1e-3), orientation}, Vec3::Zero(), Vec3::Zero(), false);
+    };
+    for (double angle = -0.5; angle < 0.5; angle += 0.03) {
+      turn(angle);
+      body.step();
+    }
+    EXPECT_TRUE(body.cut->check().failures.empty());
+    if (way > 0) {
+      EXPECT_GT(body.cut->changes, 2);
+    } else {
+      EXPECT_EQ(body.cut->changes, 0);
+    }
+  }
+}
+
 // Reset while the blade has set in but cut nothing yet: the next entry is a new one.
 TEST(Blade, forgetsOnResetWhereItHadSetIn) {
   CutBlock body({.tools = scalpel("scalpel", "0 0.03", through)});
@@ -191,7 +238,7 @@ TEST(Cuts, thatCrossMakeFourPieces) {
   CutBlock body({.tools = scalpel("scalpel", "0 0.03 0.035 0.04 0.045 0.075",
                                   through + "  6.3 15 30  -3 6.2 30  -3 6.2 -2  15 6.2 -2")});
   body.advanceTo(0.075);
-  EXPECT_EQ(body.cut->pieces, 4);
+  EXPECT_EQ(body.pieces(), 4);
 }
 
 TEST(Cuts, areExtended) {
@@ -200,22 +247,22 @@ TEST(Cuts, areExtended) {
                           scalpel("other", "0.03 0.06", "6.3 15 -2  6.3 -3 -2"),
                  .names = "@/scalpel @/other"});
   body.advanceTo(0.025);
-  EXPECT_EQ(body.cut->pieces, 1);
+  EXPECT_EQ(body.pieces(), 1);
   body.advanceTo(0.06);
-  EXPECT_EQ(body.cut->pieces, 2) << "from the other side, past the end of the first";
+  EXPECT_EQ(body.pieces(), 2) << "from the other side, past the end of the first";
 }
 
 TEST(Cuts, madeAgainChangeNothing) {
   CutBlock body({.tools = scalpel("scalpel", "0 0.03 0.035 0.04 0.045 0.075",
                                   through + "  6.3 15 30  6.3 -3 30  6.3 -3 -2  6.3 15 -2")});
   body.advanceTo(0.045);
-  EXPECT_EQ(body.cut->pieces, 2);
+  EXPECT_EQ(body.pieces(), 2);
   const auto triangles = body.cut->surface().triangles().size();
   const Index nodes = body.cut->nodes().size();
   body.advanceTo(0.075);
   EXPECT_EQ(body.cut->surface().triangles().size(), triangles);
   EXPECT_EQ(body.cut->nodes().size(), nodes);
-  EXPECT_EQ(body.cut->pieces, 2);
+  EXPECT_EQ(body.pieces(), 2);
 }
 
 }  // namespace

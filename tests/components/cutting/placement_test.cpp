@@ -97,7 +97,6 @@ TEST(RestPlacement, farPointsHaveNoPlace) {
   const std::vector<Vec3> rest = jitteredBlock(4, 1e-3);
   const RestPlacement placement(rest, RestPlacement::reachOf(rest));
   EXPECT_FALSE(placement.find({0.1, 0, 0}, {0.1, 0, 0}, rest));
-  EXPECT_FALSE(placement.imageOf({0.1, 0, 0}, rest));
 }
 
 TEST(BladeCourse, measuresWhatIsInsideAClosedBody) {
@@ -105,7 +104,8 @@ TEST(BladeCourse, measuresWhatIsInsideAClosedBody) {
   const std::vector<Vec3> dipped{{0.4, 0.3, 1.5}, {0.4, 0.3, 0.6}};
   const auto in = course.of(dipped);
   EXPECT_NEAR(in.inside, 0.4, 1e-12);
-  EXPECT_NEAR(in.middle.z(), 0.8, 1e-12);
+  EXPECT_NEAR(in.firstAt, 0.5, 1e-12);
+  EXPECT_TRUE(in.endsInside);
   ASSERT_TRUE(in.first);
   EXPECT_NEAR(in.first->z(), 1, 1e-12);
   // right through, with both ends outside
@@ -119,6 +119,15 @@ TEST(BladeCourse, measuresWhatIsInsideAClosedBody) {
   EXPECT_FALSE(within.first);
   EXPECT_TRUE(course.contains({0.1, 0.9, 0.5}));
   EXPECT_FALSE(course.contains({0.1, 1.1, 0.5}));
+}
+
+// However long the edge: only what is round the body is searched.
+TEST(BladeCourse, longEdgesCostNoMore) {
+  const BladeCourse course(box(Vec3::Zero(), Vec3(1, 1, 1)), true);
+  const auto in = course.of(std::vector<Vec3>{{3e6, 2e6, 1e6}, {0.4, 0.3, 0.6}});
+  EXPECT_TRUE(in.engaged());
+  EXPECT_TRUE(in.endsInside);
+  EXPECT_LT(in.inside, 2);
 }
 
 TEST(BladeCourse, openSheetIsInsideBeyond) {

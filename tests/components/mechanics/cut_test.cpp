@@ -404,11 +404,11 @@ TEST(CutBody, localProjectionBringsBackConsistency) {
     double worst = 0;
     body.apply = [&](const TopologyChange& change) {
       body.scene.changeTopology(change);
-      const auto& report = body.field->cutProjectionReport();
+      const ProjectionReport* report = body.field->cutProjectionReport();
       if (report) worst = std::max(worst, report->residualAfter / report->residualBefore);
     };
     cutTwice(body, options.n);
-    const auto& last = body.field->cutProjectionReport();
+    const ProjectionReport* last = body.field->cutProjectionReport();
     ASSERT_TRUE(last);
     std::printf("%d iterations: residual of the last change %.4f -> %.4f, worst ratio %.3f\n",
                 iterations, last->residualBefore, last->residualAfter, worst);
