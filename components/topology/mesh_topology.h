@@ -56,7 +56,9 @@ class MeshTopology final : public Topology {
   [[nodiscard]] std::span<const Hexahedron> hexahedra() const override {
     return uncut(hexahedronList);
   }
-  [[nodiscard]] std::span<const double> volumes() const override { return volumes_; }
+  [[nodiscard]] std::span<const double> volumes() const override {
+    return cut_ ? std::span<const double>() : volumes_;
+  }
 
  private:
   template <class Element>

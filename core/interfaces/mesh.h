@@ -6,7 +6,8 @@
 
 namespace stroma {
 
-// Points and the elements between them. Spans are valid from bind() on.
+// Points and the elements between them. Spans are valid from bind() on, those of a mesh that follows
+// cuts until the next topologyChanged() or topologyRestored().
 class Mesh : public Component {
  public:
   static constexpr std::string_view role = "Mesh";
