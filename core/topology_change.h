@@ -66,12 +66,19 @@ class CutBarrier {
   virtual void block(const Vec3& from, ConstVec3Span to, std::span<char> blocked) const = 0;
 };
 
+// What the force fields of a body keep of energy, as it was before and is after a change of links.
+struct LinkEnergy {
+  double added = 0;              // J, at the positions of the moment
+  std::vector<Index> particles;  // whose links have changed, ascending
+};
+
 struct TopologyChange {
   MechanicalState& particles;  // of the body; their number and order never change
   MechanicalState& nodes;      // of its surface
   Topology& surface;           // triangles between the nodes
   const SurfaceEdit& edit;
-  const CutBarrier& barrier;  // the new facets included
+  const CutBarrier& barrier;     // the new facets included
+  LinkEnergy* energy = nullptr;  // for force fields to add to; null where nobody asks
 
   // A list of nodes follows: copies of its members and nodes on edges between two members join.
   void follow(std::vector<Index>& nodes) const;

@@ -168,6 +168,8 @@ void CuttingTopologyModifier::clear() {
   cutting.set(false);
   changes.set(0);
   addedEnergy.set(0);
+  takenEnergy.set(0);
+  debt_.clear();
   engagedLength.set(0);
   tipStress.set(0);
 }
@@ -246,6 +248,8 @@ void CuttingTopologyModifier::cut(const StepContext&) {
     trace_.begin();
     advance(tool, track, course);
   }
+  debt_.pay(*scene().systemOf(*mechanicalState), *mechanicalState);
+  takenEnergy.set(debt_.paid());
 }
 
 // What goes out goes on for a little, so that no bridge is left there; and a blade that has pierced
@@ -356,23 +360,20 @@ void CuttingTopologyModifier::leave(bool moved) {
   active_ = -1;
 }
 
-void CuttingTopologyModifier::change(const SurfaceEdit& edit) {
+void CuttingTopologyModifier::change(const SurfaceEdit& edit, LinkEnergy* energy) {
   facets_->add(edit.cutFacets);
-  scene().changeTopology({*mechanicalState, *surfaceState, *topology, edit, *facets_});
+  scene().changeTopology({*mechanicalState, *surfaceState, *topology, edit, *facets_, energy});
 }
 
 void CuttingTopologyModifier::apply(const SurfaceEdit& edit) {
   if (edit.empty()) return;
   changes.set(changes + 1);
-  if (checkEvery == 0 || changes % checkEvery != 0) return change(edit);
-  System& system = *scene().systemOf(*mechanicalState);
-  const auto energy = [&] {
-    return system.potentialEnergy({system.x(), system.v(), scene().time()});
-  };
-  const double before = energy();
-  change(edit);
-  addedEnergy.set(addedEnergy + energy() - before);
-  failures_ += static_cast<int>(check().failures.size());
+  LinkEnergy energy;
+  change(edit, &energy);
+  addedEnergy.set(addedEnergy + energy.added);
+  if (energy.added > 0) debt_.owe(energy.added, energy.particles);
+  if (checkEvery > 0 && changes % checkEvery == 0)
+    failures_ += static_cast<int>(check().failures.size());
 }
 
 TopologyCheck CuttingTopologyModifier::check() const {
@@ -410,7 +411,7 @@ std::vector<std::pair<std::string, double>> CuttingTopologyModifier::lastValues(
 
 void CuttingTopologyModifier::replay(StateReader& reader) {
   if (!history_.empty() || cutter_->cutting()) topologyRestored();
-  history_.replay(reader, *cutter_, [this](const SurfaceEdit& edit) { change(edit); });
+  history_.replay(reader, *cutter_, [this](const SurfaceEdit& edit) { change(edit, nullptr); });
 }
 
 void CuttingTopologyModifier::save(StateWriter& writer) const {
@@ -425,6 +426,7 @@ void CuttingTopologyModifier::save(StateWriter& writer) const {
   writer.write("failures", failures_);
   writer.write("addedEnergy", addedEnergy.value());
   trace_.save(writer);
+  debt_.save(writer);
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     const std::string name = "tool" + std::to_string(t);
     std::vector<double> numbers(Pressing::numberCount + 1);
@@ -456,6 +458,8 @@ void CuttingTopologyModifier::restore(StateReader& reader) {
   if (reader.read("extent", std::span<double>(extent)))
     lastExtent_ = {extent[0], extent[1], extent[2], extent[3] != 0, extent[4] != 0};
   trace_.restore(reader);
+  debt_.restore(reader);
+  takenEnergy.set(debt_.paid());
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     const std::string name = "tool" + std::to_string(t);
     std::vector<double> numbers(Pressing::numberCount + 1);

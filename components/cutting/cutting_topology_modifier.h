@@ -8,6 +8,7 @@
 #include "components/cutting/cut_history.h"
 #include "components/cutting/cut_invariants.h"
 #include "components/cutting/cutter.h"
+#include "components/cutting/energy_debt.h"
 #include "components/cutting/incision_trace.h"
 #include "components/cutting/pierce_law.h"
 #include "core/attribute.h"
@@ -81,8 +82,13 @@ class CuttingTopologyModifier final : public TopologyModifier {
       this,
       "addedEnergy",
       0.0,
-      "Energy that the changes of links have added so far, taken away if negative; measured at the "
-      "changes that are checked (checkEvery).",
+      "Energy that the changes of links have added so far, taken away if negative.",
+      {.unit = "J", .output = true}};
+  Attribute<double> takenEnergy{
+      this,
+      "takenEnergy",
+      0.0,
+      "Energy taken from the motion beside the cut, for changes of links that had added some.",
       {.unit = "J", .output = true}};
   Attribute<double> tipStress{
       this,
@@ -167,7 +173,7 @@ class CuttingTopologyModifier final : public TopologyModifier {
   [[nodiscard]] bool wasSet(const Tool& tool, const Track& track) const;
   void leave(bool moved);
   [[nodiscard]] TopologyCheck check(const SurfaceNumbers& surface) const;
-  void change(const SurfaceEdit& edit);
+  void change(const SurfaceEdit& edit, LinkEnergy* energy);
   void apply(const SurfaceEdit& edit);
 
   std::unique_ptr<SimplicialComplex> complex_;
@@ -184,6 +190,7 @@ class CuttingTopologyModifier final : public TopologyModifier {
   double wayOut_ = 0;               // of the blade that cuts, since it was last inside [m]
   BladeCourse::Extent lastExtent_;  // of the blade that cuts
   IncisionTrace trace_{0};
+  EnergyDebt debt_;
   int failures_ = 0;  // found by the checks on the way
   Limiter busy_{this, "busy", "steps in which a second blade wanted to cut and could not"};
   Limiter untouched_{this, "untouched",

@@ -42,7 +42,9 @@ class MlsElasticity {
   }
 
   // The same of one particle; costs what its row holds.
-  [[nodiscard]] Mat3 deformationAt(ConstVec3Span x, Index i) const;
+  [[nodiscard]] Mat3 deformationAt(ConstVec3Span x, Index i) const {
+    return completed(i, fittedAt(x, i));
+  }
   // Cauchy stress P F^T / J of one particle; a collapsed particle has none.
   [[nodiscard]] Mat3 stressAt(ConstVec3Span x, Index i) const {
     return cauchyStress(deformationAt(x, i));
@@ -53,6 +55,8 @@ class MlsElasticity {
   }
 
   [[nodiscard]] double energy(ConstVec3Span x);
+  // The same of some particles; costs what their rows hold.
+  [[nodiscard]] double energyOf(ConstVec3Span x, std::span<const Index> particles) const;
 
   // f += forces at positions x.
   void addForces(ConstVec3Span x, Vec3Span f) {
@@ -166,7 +170,11 @@ class MlsElasticity {
     return filtered_ ? material_.dStress(filteredTangents_[i], dF)
                      : material_.dStress(tangents_[i], dF);
   }
-  [[nodiscard]] double controlEnergy(Index i, const Mat3& H) const;
+  // F as the bonds see it, and what a particle makes of it that they do not hold in all directions.
+  [[nodiscard]] Mat3 fittedAt(ConstVec3Span x, Index i) const;
+  [[nodiscard]] Mat3 completed(Index i, const Mat3& F) const;
+  // At positions x, where H = F - I.
+  [[nodiscard]] double controlEnergy(ConstVec3Span x, Index i, const Mat3& H) const;
   template <class Add>
   void assembleControl(Index i, std::span<const Index> ids, std::span<const Vec3> g,
                        Add&& add) const;
@@ -291,7 +299,7 @@ void MlsElasticity<Material>::addMotionProduct(double factor, Vec3Span df) {
 }
 
 template <class Material>
-Mat3 MlsElasticity<Material>::deformationAt(ConstVec3Span x, Index i) const {
+Mat3 MlsElasticity<Material>::fittedAt(ConstVec3Span x, Index i) const {
   const Vec3 ui = x[i] - bonds_.reference(i);
   Mat3 F = Mat3::Identity();
   const Bond* bond = bonds_.own(i);
@@ -299,6 +307,11 @@ Mat3 MlsElasticity<Material>::deformationAt(ConstVec3Span x, Index i) const {
     const Vec3 u = x[bond->particle] - bonds_.reference(bond->particle) - ui;
     F += u * Vec3(bond->g[0], bond->g[1], bond->g[2]).transpose();
   }
+  return F;
+}
+
+template <class Material>
+Mat3 MlsElasticity<Material>::completed(Index i, const Mat3& F) const {
   const auto deficient = bonds_.deficient();
   const auto found = std::ranges::lower_bound(deficient, i, {}, &DeficientParticle::particle);
   return found != deficient.end() && found->particle == i ? completeGradient(*found, F) : F;
@@ -317,20 +330,32 @@ double MlsElasticity<Material>::energy(ConstVec3Span x) {
       const Mat3 F = deformationOf(i);
       const bool missing = next != deficient.end() && next->particle == i;
       sum += bonds_.volume(i) * material_.energy(missing ? completeGradient(*next++, F) : F);
-      if (control_) sum += controlEnergy(i, F - Mat3::Identity());
+      if (control_) sum += controlEnergy(x, i, F - Mat3::Identity());
     }
     return sum;
   });
 }
 
 template <class Material>
-double MlsElasticity<Material>::controlEnergy(Index i, const Mat3& H) const {
+double MlsElasticity<Material>::energyOf(ConstVec3Span x, std::span<const Index> particles) const {
   double sum = 0;
+  for (const Index i : particles) {
+    const Mat3 F = fittedAt(x, i);
+    sum += bonds_.volume(i) * material_.energy(completed(i, F));
+    if (control_) sum += controlEnergy(x, i, F - Mat3::Identity());
+  }
+  return sum;
+}
+
+template <class Material>
+double MlsElasticity<Material>::controlEnergy(ConstVec3Span x, Index i, const Mat3& H) const {
+  double sum = 0;
+  const Vec3 ui = x[i] - bonds_.reference(i);
   const Bond* bond = bonds_.own(i);
   for (const Bond* end = bond + bonds_.ownRow(i).size; bond != end; ++bond) {
-    const Vec4 d = motion_[bond->particle].value - motion_[i].value;
+    const Vec3 u = x[bond->particle] - bonds_.reference(bond->particle) - ui;
     const Vec3 X = bonds_.reference(bond->particle) - bonds_.reference(i);
-    sum += 0.5 * bond->control * (Vec3(d[0], d[1], d[2]) - H * X).squaredNorm();
+    sum += 0.5 * bond->control * (u - H * X).squaredNorm();
   }
   return sum;
 }

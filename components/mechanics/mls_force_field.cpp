@@ -23,6 +23,8 @@ class MLSForceField::Law {
   virtual ~Law() = default;
   virtual void addForces(ConstVec3Span x, Vec3Span f) = 0;
   virtual double energy(ConstVec3Span x) = 0;
+  [[nodiscard]] virtual double energyOf(ConstVec3Span x,
+                                        std::span<const Index> particles) const = 0;
   virtual void prepareTangent(ConstVec3Span x, Definiteness definiteness) = 0;
   virtual void addStiffnessProduct(double factor, ConstVec3Span dx, Vec3Span df) = 0;
   virtual void addTangent(BlockMatrix& matrix, Index offset, double factor) const = 0;
@@ -37,6 +39,9 @@ class MLSForceField::LawOf final : public Law {
   LawOf(const Material& material, const MlsBonds& bonds) : elasticity_(material, bonds) {}
   void addForces(ConstVec3Span x, Vec3Span f) override { elasticity_.addForces(x, f); }
   double energy(ConstVec3Span x) override { return elasticity_.energy(x); }
+  [[nodiscard]] double energyOf(ConstVec3Span x, std::span<const Index> particles) const override {
+    return elasticity_.energyOf(x, particles);
+  }
   void prepareTangent(ConstVec3Span x, Definiteness definiteness) override {
     elasticity_.prepareTangent(x, definiteness);
   }
@@ -286,6 +291,13 @@ void MLSForceField::attributeChanged(const AttributeBase& attribute) {
 void MLSForceField::addForce(const StateView& at, Vec3Span f) { law_->addForces(at.x, f); }
 
 double MLSForceField::potentialEnergy(const StateView& at) const { return law_->energy(at.x); }
+
+double MLSForceField::energyOf(std::span<const Index> particles) const {
+  const ConstVec3Span x = mechanicalState->x();
+  double sum = law_->energyOf(x, particles);
+  for (const EnergyOf& sharer : sharers_) sum += sharer(x, particles);
+  return sum;
+}
 
 void MLSForceField::linearize(const StateView& at) {
   law_->prepareTangent(

@@ -12,6 +12,7 @@
 // refitted become first-order ones beside a cut; the weights of the energy's sum stay.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -238,6 +239,10 @@ class MLSForceField final : public ForceField, public StressField {
   [[nodiscard]] const TopologyModifier* modifier() const { return cut_ ? cut_->modifier : nullptr; }
   // The particles as the last change has left them. Only with a modifier.
   [[nodiscard]] CutParticles cutParticles() const;
+  // Calls `energyOf(x, particles)` before and after a change of the bonds, too: for a force field
+  // that shares them. Only before the scene starts.
+  using EnergyOf = std::function<double(ConstVec3Span, std::span<const Index>)>;
+  void countEnergyOf(EnergyOf energyOf) { sharers_.push_back(std::move(energyOf)); }
   // Lets points follow the change that topologyChanged() has just followed; `cut` as in
   // concernedPoints(). Does nothing for points that have followed it already.
   void follow(RidingPoints& points, ConstVec3Span rest, bool cut, const TopologyChange& change);
@@ -280,6 +285,7 @@ class MLSForceField final : public ForceField, public StressField {
   [[nodiscard]] const Gradients& plainGradients() const {
     return plainGradients_.values.empty() ? gradients_ : plainGradients_;
   }
+  [[nodiscard]] double energyOf(std::span<const Index> particles) const;
   [[nodiscard]] std::vector<Index> relinkRows(const CutBarrier& barrier);
   void fitRelinkedRow(Index i, const CutBarrier& barrier);
   void followBoundary(const TopologyChange& change);
@@ -300,6 +306,7 @@ class MLSForceField final : public ForceField, public StressField {
   std::optional<ProjectionReport> projection_;
   std::unique_ptr<MlsBonds> bonds_;
   std::unique_ptr<Law> law_;
+  std::vector<EnergyOf> sharers_;
   std::unique_ptr<Cut> cut_;
 };
 

@@ -80,7 +80,11 @@ void MLSForceField::topologyChanged(const TopologyChange& change) {
     ends.insert(ends.end(), neighbourhoods_.neighboursOf(i).begin(),
                 neighbourhoods_.neighboursOf(i).end());
   sortUnique(ends);
+  const double before = change.energy ? energyOf(rows) : 0;
   bonds_->followRows(neighbourhoods_, transposed_, gradients_, rows, ends);
+  if (!change.energy) return;
+  change.energy->added += energyOf(rows) - before;
+  change.energy->particles = std::move(rows);
 }
 
 // Replaces the rows to be relinked. Returns the neighbours that they had.

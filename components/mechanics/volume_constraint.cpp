@@ -16,6 +16,9 @@ VolumeConstraint::~VolumeConstraint() = default;
 void VolumeConstraint::bind() {
   loops_ = std::make_unique<Loops>(
       Loops{MlsElasticity<VolumePenalty>(VolumePenalty(stiffness), forceField->bonds(), false)});
+  forceField->countEnergyOf([this](ConstVec3Span x, std::span<const Index> particles) {
+    return loops_->elasticity.energyOf(x, particles);
+  });
 }
 
 void VolumeConstraint::attributeChanged(const AttributeBase&) {
