@@ -209,7 +209,8 @@ struct CutScene {
   void follow(const SurfaceEdit& edit) {
     if (edit.empty()) return;
     barrier.add(edit.cutFacets);
-    const TopologyChange change{*particles, *nodes, divider->surface(), edit, barrier};
+    LinkEnergy energy;  // asked for, as a modifier does
+    const TopologyChange change{*particles, *nodes, divider->surface(), edit, barrier, &energy};
     if (apply)
       apply(change);
     else
