@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
 #include "components/boundary/surface_triangles.h"
 #include "core/interfaces/force_field.h"
 
@@ -9,9 +11,10 @@ namespace stroma {
 // Force per area of the surface at rest (a dead load: it keeps its size and direction). Either one
 // `traction` for all triangles, or traction = `stress` N with N the triangle's outward normal at
 // rest and `stress` the first Piola-Kirchhoff stress, given as xx yy zz xy yz zx; on the whole
-// surface of a body this is the load of a uniform stress. A third of each triangle's force goes to
-// each of its nodes. When the body is cut, pieces of loaded triangles carry the load of their own
-// areas; the walls of the incision carry none.
+// surface of a body this is the load of a uniform stress, or with `stressGradient` of one that
+// varies linearly, as in bending. Each node of a triangle gets the integral of the traction times
+// its linear shape function. When the body is cut, pieces of loaded triangles carry the load of
+// their own areas; the walls of the incision carry none.
 class TractionForceField final : public ForceField {
  public:
   Attribute<Vec3> traction{this,
@@ -25,6 +28,17 @@ class TractionForceField final : public ForceField {
       {},
       "Symmetric stress xx yy zz xy yz zx, instead of a traction.",
       {.unit = "Pa"}};
+  Attribute<std::vector<double>> stressGradient{
+      this,
+      "stressGradient",
+      {},
+      "Derivatives of the stress along x, y and z, six numbers each.",
+      {.unit = "Pa/m"}};
+  Attribute<Vec3> stressOrigin{this,
+                               "stressOrigin",
+                               Vec3::Zero(),
+                               "Where a stress that varies has the value `stress`.",
+                               {.unit = "m"}};
   Attribute<double> rampTime{this,
                              "rampTime",
                              0.0,
@@ -64,8 +78,11 @@ class TractionForceField final : public ForceField {
   [[nodiscard]] Vec3 fullForce(Index place) const;
   void computeForces();
   SurfaceTriangles surface_;
-  Mat3 tensor_ = Mat3::Zero();  // the stress
-  std::vector<Vec3> force_;     // full force on each loaded node
+  // Traction at a place on a surface with this outward unit normal.
+  [[nodiscard]] Vec3 tractionAt(const Vec3& X, const Vec3& normal) const;
+  Mat3 tensor_ = Mat3::Zero();   // the stress
+  std::array<Mat3, 3> slope_{};  // its derivatives
+  std::vector<Vec3> force_;      // full force on each loaded node
 };
 
 }  // namespace stroma

@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
   std::string surface, filled;
   double size = 0;
   CLI::App* tetrahedra =
-      app.add_subcommand("tetrahedra", "Fill a closed surface with tetrahedra, Gmsh 2.2 ASCII");
+      app.add_subcommand("tetrahedra", "Fill a surface with tetrahedra, Gmsh 2.2 ASCII; open rims get lids");
   tetrahedra->add_option("surface", surface, "Wavefront OBJ of triangles")->required();
   tetrahedra->add_option("out", filled, "file to write, .msh")->required();
   tetrahedra

@@ -13,6 +13,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "components/sampling/surface_check.h"
+#include "components/sampling/surface_closing.h"
+
 namespace nglib {
 #include <netgen/nglib.h>
 }
@@ -51,6 +54,15 @@ void readObj(const std::filesystem::path& path, TetrahedralMesh& mesh) {
       mesh.surface.push_back(t);
     }
   }
+}
+
+// An open sheet gets lids, as where particles fill it.
+void closeRims(TetrahedralMesh& mesh) {
+  if (!whyNotSheet(mesh.positions, mesh.surface).empty() || boundaryLoops(mesh.surface).empty())
+    return;
+  SurfaceMesh closed = capRims(mesh.positions, mesh.surface);
+  mesh.positions = std::move(closed.positions);
+  mesh.surface = std::move(closed.triangles);
 }
 
 void requireClosed(const TetrahedralMesh& mesh) {
@@ -112,6 +124,7 @@ void requireVolumes(const TetrahedralMesh& mesh) {
 TetrahedralMesh fillSurface(const std::filesystem::path& obj, double size) {
   TetrahedralMesh mesh;
   readObj(obj, mesh);
+  closeRims(mesh);
   requireClosed(mesh);
   const std::size_t nodes = mesh.positions.size();
   // netgen's tolerances want lengths of about one

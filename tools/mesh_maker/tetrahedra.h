@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fills closed triangle surfaces with tetrahedra, by netgen (Schoeberl 1997). The surface is kept:
-// its nodes come first with their numbers and positions, its triangles are the boundary as they
-// are.
+// Fills triangle surfaces with tetrahedra, by netgen (Schoeberl 1997). The surface is kept: its
+// nodes come first with their numbers and positions, its triangles are the boundary as they are;
+// rims that are open get lids.
 #pragma once
 
 #include <filesystem>
@@ -20,8 +20,8 @@ struct TetrahedralMesh {
 };
 
 // `size`: largest edge inside, in mean edges of the surface; 0 leaves it to netgen. Throws
-// std::runtime_error that says what is wrong: a file that cannot be read, a surface that is not
-// closed, or one that netgen cannot fill.
+// std::runtime_error that says what is wrong: a file that cannot be read, a surface that is no
+// sheet, or one that netgen cannot fill.
 [[nodiscard]] TetrahedralMesh fillSurface(const std::filesystem::path& obj, double size);
 
 // Gmsh 2.2, ASCII: nodes rounded to the nanometre, triangles, then tetrahedra.

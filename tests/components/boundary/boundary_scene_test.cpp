@@ -130,6 +130,7 @@ TEST(Boundary, mistakesAreNamed) {
       {"<SurfacePressureForceField pressure='1' triangles='0 1 77'/>", "has node 77"},
       {"<TractionForceField/>", "one of 'traction' and 'stress'"},
       {"<TractionForceField stress='1 2 3'/>", "expected 6"},
+      {"<TractionForceField stressGradient='1 2 3'/>", "expected 18"},
       {"<GripForceField indices='0' stiffness='1' keyTimes='0 1' displacements='0 0 0'/>",
        "1 displacements for 2 key times"},
       {"<GripForceField indices='0' stiffness='1' keyTimes='1 0' displacements='0 0 0 1 1 1'/>",

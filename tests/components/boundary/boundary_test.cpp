@@ -188,6 +188,30 @@ TEST(Traction, uniformStressHasNoResultantOnAClosedSurface) {
   EXPECT_LT((virial - stress * 4.0 / 3).norm(), 1e-14) << "sum f X^T = stress x volume";
 }
 
+// The divergence theorem: sum f = div stress x volume, sum f X^T = integral of the stress + f X^T.
+TEST(Traction, linearStressIsIntegratedExactly) {
+  Loaded s = loadBoundary(
+      onOctahedron("<TractionForceField stress='5 3 -2 1 4 2' stressOrigin='0.1 0.2 -0.3' "
+                   "stressGradient='1 2 3 4 5 6  -2 0 1 3 1 2  4 1 -1 0 2 5'/>"));
+  System& system = s.system();
+  system.computeForce({system.x(), system.v(), 0}, system.f());
+  Vec3 sum = Vec3::Zero();
+  Mat3 virial = Mat3::Zero();
+  for (std::size_t i = 0; i < 6; ++i) {
+    sum += system.f()[i];
+    virial += system.f()[i] * system.rest()[i].transpose();
+  }
+  const double volume = 4.0 / 3;
+  Mat3 middle, x, y, z;  // stress at the centre, derivatives
+  x << 1, 4, 6, 4, 2, 5, 6, 5, 3;
+  y << -2, 3, 2, 3, 0, 1, 2, 1, 1;
+  z << 4, 0, 5, 0, 1, 2, 5, 2, -1;
+  middle << 5, 1, 2, 1, 3, 4, 2, 4, -2;
+  middle -= 0.1 * x + 0.2 * y - 0.3 * z;
+  EXPECT_LT((sum - volume * (x.col(0) + y.col(1) + z.col(2))).norm(), 1e-13);
+  EXPECT_LT((virial - volume * middle).norm(), 1e-13);
+}
+
 TEST(Traction, forceIsTractionTimesArea) {
   Loaded s =
       loadBoundary(onOctahedron("<TractionForceField traction='0 0 3' triangleIndices='0 2'/>"));
