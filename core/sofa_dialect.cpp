@@ -108,6 +108,18 @@ constexpr std::array ofComponent = {
     Names{"RegularGridTopology", "computeQuadList"},
     Names{"RegularGridTopology", "computeEdgeList"},
     Names{"RegularGridTopology", "computePointList"},
+    Names{"TetrahedronFEMForceField", "computeGlobalMatrix"},
+    Names{"TetrahedronFEMForceField", "assembling"},
+    Names{"TetrahedronFEMForceField", "updateStiffnessMatrix"},
+    Names{"TetrahedronFEMForceField", "updateStiffness"},
+    Names{"TetrahedronFEMForceField", "showVonMisesStressPerNode"},
+    Names{"TetrahedronFEMForceField", "gatherPt"},
+    Names{"TetrahedronFEMForceField", "gatherBsize"},
+    Names{"TetrahedronFEMForceField", "drawHeterogeneousTetra"},
+    Names{"HexahedronFEMForceField", "updateStiffnessMatrix"},
+    Names{"MeshSpringForceField", "drawMinElongationRange"},
+    Names{"MeshSpringForceField", "drawMaxElongationRange"},
+    Names{"MeshSpringForceField", "drawSpringSize"},
 };
 
 bool contains(std::span<const std::string_view> list, std::string_view name) {

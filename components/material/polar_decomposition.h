@@ -78,12 +78,6 @@ inline Vec3 axialVector(const Mat3& A) {
   return {A(2, 1) - A(1, 2), A(0, 2) - A(2, 0), A(1, 0) - A(0, 1)};
 }
 
-inline Mat3 skewMatrix(const Vec3& a) {
-  Mat3 A;
-  A << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return A;
-}
-
 [[nodiscard]] inline Mat3 closestRotation(const Mat3& F) {
   const double scale = F.norm();
   if (!(scale > 1e-150)) return Mat3::Identity();

@@ -11,12 +11,11 @@
 // particle. Nothing is allocated after construction except by prepareTangent. Units: SI.
 #pragma once
 
+#include "components/material/elastic_law.h"
 #include "components/mechanics/mls_bonds.h"
 #include "core/parallel.h"
 
 namespace stroma {
-
-enum class Definiteness { exact, filtered };
 
 template <class Material>
 class MlsElasticity {
@@ -68,7 +67,7 @@ class MlsElasticity {
   }
 
   // Keeps the material's tangent at x for the products and blocks that follow.
-  void prepareTangent(ConstVec3Span x, Definiteness definiteness = Definiteness::exact);
+  void prepareTangent(ConstVec3Span x, TangentKind kind = TangentKind::exact);
 
   // df += factor K dx, K = d2 energy / dx2 at the prepared state (so that d force = -K dx).
   void addStiffnessProduct(double factor, ConstVec3Span dx, Vec3Span df) {
@@ -361,8 +360,8 @@ double MlsElasticity<Material>::controlEnergy(ConstVec3Span x, Index i, const Ma
 }
 
 template <class Material>
-void MlsElasticity<Material>::prepareTangent(ConstVec3Span x, Definiteness definiteness) {
-  filtered_ = definiteness == Definiteness::filtered;
+void MlsElasticity<Material>::prepareTangent(ConstVec3Span x, TangentKind kind) {
+  filtered_ = kind == TangentKind::filtered;
   const auto count = static_cast<std::size_t>(bonds_.particleCount());
   if (filtered_)
     filteredTangents_.resize(count);

@@ -25,7 +25,7 @@ class MLSForceField::Law {
   virtual double energy(ConstVec3Span x) = 0;
   [[nodiscard]] virtual double energyOf(ConstVec3Span x,
                                         std::span<const Index> particles) const = 0;
-  virtual void prepareTangent(ConstVec3Span x, Definiteness definiteness) = 0;
+  virtual void prepareTangent(ConstVec3Span x, TangentKind kind) = 0;
   virtual void addStiffnessProduct(double factor, ConstVec3Span dx, Vec3Span df) = 0;
   virtual void addTangent(BlockMatrix& matrix, Index offset, double factor) const = 0;
   virtual void stress(ConstVec3Span x, std::vector<double>& vonMises,
@@ -42,8 +42,8 @@ class MLSForceField::LawOf final : public Law {
   [[nodiscard]] double energyOf(ConstVec3Span x, std::span<const Index> particles) const override {
     return elasticity_.energyOf(x, particles);
   }
-  void prepareTangent(ConstVec3Span x, Definiteness definiteness) override {
-    elasticity_.prepareTangent(x, definiteness);
+  void prepareTangent(ConstVec3Span x, TangentKind kind) override {
+    elasticity_.prepareTangent(x, kind);
   }
   void addStiffnessProduct(double factor, ConstVec3Span dx, Vec3Span df) override {
     elasticity_.addStiffnessProduct(factor, dx, df);
@@ -299,10 +299,7 @@ double MLSForceField::energyOf(std::span<const Index> particles) const {
   return sum;
 }
 
-void MLSForceField::linearize(const StateView& at) {
-  law_->prepareTangent(
-      at.x, tangent == TangentKind::exact ? Definiteness::exact : Definiteness::filtered);
-}
+void MLSForceField::linearize(const StateView& at) { law_->prepareTangent(at.x, tangent); }
 
 void MLSForceField::addTangentProduct(ConstVec3Span dx, double stiffness, double /*damping*/,
                                       Vec3Span df) const {

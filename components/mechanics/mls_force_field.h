@@ -16,6 +16,7 @@
 #include <memory>
 #include <optional>
 
+#include "components/material/elastic_law.h"
 #include "components/mechanics/consistent_gradient.h"
 #include "components/mechanics/mls_bonds.h"
 #include "components/mechanics/riding_points.h"
@@ -26,34 +27,14 @@
 
 namespace stroma {
 
-enum class MaterialLaw { hooke, stableNeoHookean };
-enum class StrainMeasure { cauchy, green, corotated };
 enum class GradientScheme { plain, consistent, secondOrder };
-enum class TangentKind { exact, filtered };
 
-template <>
-struct EnumNames<MaterialLaw> {
-  static constexpr std::array<std::pair<MaterialLaw, std::string_view>, 2> names = {
-      {{MaterialLaw::hooke, "hooke"}, {MaterialLaw::stableNeoHookean, "stableNeoHookean"}}};
-};
-template <>
-struct EnumNames<StrainMeasure> {
-  static constexpr std::array<std::pair<StrainMeasure, std::string_view>, 3> names = {
-      {{StrainMeasure::cauchy, "cauchy"},
-       {StrainMeasure::green, "green"},
-       {StrainMeasure::corotated, "corotated"}}};
-};
 template <>
 struct EnumNames<GradientScheme> {
   static constexpr std::array<std::pair<GradientScheme, std::string_view>, 3> names = {
       {{GradientScheme::plain, "plain"},
        {GradientScheme::consistent, "consistent"},
        {GradientScheme::secondOrder, "secondOrder"}}};
-};
-template <>
-struct EnumNames<TangentKind> {
-  static constexpr std::array<std::pair<TangentKind, std::string_view>, 2> names = {
-      {{TangentKind::exact, "exact"}, {TangentKind::filtered, "filtered"}}};
 };
 template <>
 struct EnumNames<SupportShape> {

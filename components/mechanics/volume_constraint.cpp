@@ -34,9 +34,7 @@ double VolumeConstraint::potentialEnergy(const StateView& at) const {
 }
 
 void VolumeConstraint::linearize(const StateView& at) {
-  loops_->elasticity.prepareTangent(at.x, forceField->tangent == TangentKind::exact
-                                              ? Definiteness::exact
-                                              : Definiteness::filtered);
+  loops_->elasticity.prepareTangent(at.x, forceField->tangent);
 }
 
 void VolumeConstraint::addTangentProduct(ConstVec3Span dx, double stiffnessFactor,

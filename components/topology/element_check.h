@@ -34,5 +34,8 @@ template <std::size_t N>
 // Share of each point in the tetrahedra around it, a quarter of each (m^3).
 [[nodiscard]] std::vector<double> lumpedVolumes(ConstVec3Span positions,
                                                 std::span<const Tetrahedron> tetrahedra);
+// The same in hexahedra, an eighth of each. Their faces are the bilinear ones.
+[[nodiscard]] std::vector<double> lumpedVolumes(ConstVec3Span positions,
+                                                std::span<const Hexahedron> hexahedra);
 
 }  // namespace stroma

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/topology/mesh_topology.h"
 
+#include <algorithm>
+#include <functional>
+
 #include "components/topology/element_check.h"
 
 namespace stroma {
@@ -20,9 +23,10 @@ void MeshTopology::bind() {
   check(quadList);
   check(tetrahedronList);
   check(hexahedronList);
-  if (!failed() && !tetrahedronList->empty()) {
-    volumes_ = lumpedVolumes(*position, *tetrahedronList);
-  }
+  if (failed() || (tetrahedronList->empty() && hexahedronList->empty())) return;
+  volumes_ = lumpedVolumes(*position, std::span<const Tetrahedron>(*tetrahedronList));
+  const auto more = lumpedVolumes(*position, std::span<const Hexahedron>(*hexahedronList));
+  std::ranges::transform(volumes_, more, volumes_.begin(), std::plus());
 }
 
 void MeshTopology::topologyChanged(const TopologyChange& change) {

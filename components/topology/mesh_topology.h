@@ -7,7 +7,8 @@
 namespace stroma {
 
 // Points and elements given by the scene, mostly by src="@loader". Every element must name existing
-// points, each once. With tetrahedra, each point stands for a quarter of those around it.
+// points, each once. With tetrahedra or hexahedra, each point stands for a quarter or an eighth of
+// those around it.
 //
 // When a body is cut whose surface this is, points and triangles follow; the attributes keep what
 // the scene gave, and spans of that stay valid. Other elements are not divided: a topology that has

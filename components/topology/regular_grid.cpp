@@ -60,6 +60,30 @@ void addVolumes(double cell, RegularGrid& grid) {
 
 }  // namespace
 
+std::vector<Tetrahedron> splitCells(const Counts& n, std::span<const Hexahedron> cells,
+                                    CellSplit split) {
+  using Corners = std::array<std::size_t, 4>;
+  static constexpr std::array<Corners, 6> six{
+      {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}}};
+  static constexpr std::array<Corners, 5> even{
+      {{0, 1, 2, 5}, {0, 2, 3, 7}, {0, 5, 7, 4}, {2, 7, 5, 6}, {0, 2, 7, 5}}};
+  static constexpr std::array<Corners, 5> odd{
+      {{1, 2, 3, 6}, {0, 1, 3, 4}, {1, 6, 4, 5}, {3, 4, 6, 7}, {1, 3, 4, 6}}};
+  std::vector<Tetrahedron> tetrahedra;
+  if (split == CellSplit::none) return tetrahedra;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    const auto number = static_cast<Index>(cell);
+    const Index i = number % (n[0] - 1), j = number / (n[0] - 1) % (n[1] - 1),
+                k = number / (n[0] - 1) / (n[1] - 1);
+    const std::span<const Corners> parts = split == CellSplit::six ? std::span<const Corners>(six)
+                                           : (i + j + k) % 2 == 0  ? even
+                                                                   : odd;
+    const Hexahedron& h = cells[cell];
+    for (const Corners& c : parts) tetrahedra.push_back({h[c[0]], h[c[1]], h[c[2]], h[c[3]]});
+  }
+  return tetrahedra;
+}
+
 RegularGrid makeRegularGrid(const Counts& n, const Vec3& min, const Vec3& max) {
   RegularGrid grid;
   if (n[0] < 1 || n[1] < 1 || n[2] < 1) {

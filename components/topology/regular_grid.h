@@ -21,6 +21,14 @@ struct RegularGrid {
   std::string problem;              // why there is no grid; empty when there is one
 };
 
+// How a grid's cells are made into tetrahedra that fit together, (b - a) x (c - a) towards d: six
+// round the diagonal from node 0 to node 6 (Kuhn 1960), all cells alike; or five, one of them in
+// the middle and four at corners, neighbouring cells mirrored.
+enum class CellSplit { none, six, five };
+[[nodiscard]] std::vector<Tetrahedron> splitCells(const std::array<Index, 3>& points,
+                                                  std::span<const Hexahedron> cells,
+                                                  CellSplit split);
+
 [[nodiscard]] RegularGrid makeRegularGrid(const std::array<Index, 3>& points, const Vec3& min,
                                           const Vec3& max);
 

@@ -23,6 +23,7 @@ void RegularGridTopology::bind() {
     error("grid", grid.problem);
     return;
   }
+  tetrahedronList.set(splitCells(counts, grid.hexahedra, createTetrahedra));
   position.set(std::move(grid.positions));
   edgeList.set(std::move(grid.edges));
   hexahedronList.set(std::move(grid.hexahedra));

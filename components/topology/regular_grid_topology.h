@@ -6,8 +6,15 @@
 
 namespace stroma {
 
+template <>
+struct EnumNames<CellSplit> {
+  static constexpr std::array<std::pair<CellSplit, std::string_view>, 3> names = {
+      {{CellSplit::none, "none"}, {CellSplit::six, "six"}, {CellSplit::five, "five"}}};
+};
+
 // Points of a regular grid, numbered x fastest, then y, then z; the hexahedra between them; the
-// outer surface as quads and triangles that face outwards. Each point stands for an eighth of the
+// outer surface as quads and triangles that face outwards; on demand each cell also as
+// tetrahedra. Each point stands for an eighth of the
 // cells around it, so the volumes add up to the box.
 class RegularGridTopology final : public Topology {
  public:
@@ -34,12 +41,19 @@ class RegularGridTopology final : public Topology {
                               "Distance of neighbours, instead of max.",
                               {.unit = "m", .min = 0, .exclusiveMin = true}};
 
+  Attribute<CellSplit> createTetrahedra{
+      this, "createTetrahedra", CellSplit::none,
+      "Also splits each cell into tetrahedra: six, all cells alike, or five, neighbours mirrored "
+      "(less stiff in bending)."};
+
   Attribute<std::vector<Vec3>> position{
       this, "position", {}, "Points.", {.unit = "m", .output = true, .autolink = true}};
   Attribute<std::vector<Edge>> edgeList{
       this, "edges", {}, "Edges of the cells.", {.output = true, .autolink = true}};
   Attribute<std::vector<Hexahedron>> hexahedronList{
       this, "hexahedra", {}, "The cells.", {.output = true, .autolink = true}};
+  Attribute<std::vector<Tetrahedron>> tetrahedronList{
+      this, "tetrahedra", {}, "The cells' tetrahedra.", {.output = true, .autolink = true}};
   Attribute<std::vector<Quad>> quadList{
       this, "quads", {}, "Outer surface.", {.output = true, .autolink = true}};
   Attribute<std::vector<Triangle>> triangleList{this,
@@ -59,6 +73,9 @@ class RegularGridTopology final : public Topology {
   [[nodiscard]] std::span<const Triangle> triangles() const override { return *triangleList; }
   [[nodiscard]] std::span<const Quad> quads() const override { return *quadList; }
   [[nodiscard]] std::span<const Hexahedron> hexahedra() const override { return *hexahedronList; }
+  [[nodiscard]] std::span<const Tetrahedron> tetrahedra() const override {
+    return *tetrahedronList;
+  }
   [[nodiscard]] std::span<const double> volumes() const override { return *volume; }
 };
 

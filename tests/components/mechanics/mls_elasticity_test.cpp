@@ -155,7 +155,7 @@ TYPED_TEST(PointForce, assembledStiffnessIsTheProduct) {
                             d = randomField(x.size(), 1, 11);
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += noise[i];
     MlsElasticity<TypeParam> elasticity(makeMaterial<TypeParam>(), *body.bonds);
-    for (const auto definiteness : {Definiteness::exact, Definiteness::filtered}) {
+    for (const auto definiteness : {TangentKind::exact, TangentKind::filtered}) {
       elasticity.prepareTangent(x, definiteness);
       std::vector<Vec3> product(x.size(), Vec3::Zero());
       elasticity.addStiffnessProduct(1, d, product);

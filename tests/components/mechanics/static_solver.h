@@ -175,7 +175,7 @@ StaticResult solveStatic(MlsElasticity<Material>& elasticity, Vec3Span x,
     if (result.residual < problem.tolerance) return result.converged = true, result;
     // a factor is kept while it serves
     if (!(result.residual < 0.3 * last)) {
-      for (const auto definiteness : {Definiteness::exact, Definiteness::filtered}) {
+      for (const auto definiteness : {TangentKind::exact, TangentKind::filtered}) {
         elasticity.prepareTangent(x, definiteness);
         SparseMatrix K = stiffnessMatrix(elasticity, count);
         K += SparseMatrix(springs.stiffness.asDiagonal());

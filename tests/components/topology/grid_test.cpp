@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "components/topology/element_check.h"
@@ -63,6 +65,52 @@ TEST(RegularGrid, hexahedraAreRightHanded) {
                z = at(grid, h[4]) - at(grid, h[0]);
     EXPECT_NEAR(x.cross(y).dot(z), 1.0 / 8, 1e-15);
   }
+}
+
+TEST(RegularGrid, tetrahedraFillTheCellsAndFitTogether) {
+  const RegularGrid grid = makeRegularGrid({4, 3, 5}, Vec3::Zero(), Vec3(3, 2, 4));
+  for (const auto& [split, each] : {std::pair{CellSplit::six, 6u}, {CellSplit::five, 5u}}) {
+    const auto tetrahedra = splitCells({4, 3, 5}, grid.hexahedra, split);
+    EXPECT_EQ(tetrahedra.size(), each * grid.hexahedra.size());
+    double volume = 0;
+    std::map<std::array<Index, 3>, int> sides;
+    for (const Tetrahedron& t : tetrahedra) {
+      const double six = (at(grid, t[1]) - at(grid, t[0]))
+                             .cross(at(grid, t[2]) - at(grid, t[0]))
+                             .dot(at(grid, t[3]) - at(grid, t[0]));
+      EXPECT_GT(six, 0.5);
+      volume += six / 6;
+      for (std::size_t left = 0; left < 4; ++left) {
+        std::array<Index, 3> side;
+        for (std::size_t k = 0, to = 0; k < 4; ++k)
+          if (k != left) side[to++] = t[k];
+        std::ranges::sort(side);
+        ++sides[side];
+      }
+    }
+    EXPECT_NEAR(volume, 24, 1e-12);
+    // a side belongs to two, but for those outside: two triangles a quad
+    std::size_t outside = 0;
+    for (const auto& [side, count] : sides) {
+      EXPECT_LE(count, 2);
+      outside += count == 1;
+    }
+    EXPECT_EQ(outside, grid.triangles.size());
+  }
+  EXPECT_TRUE(splitCells({4, 3, 5}, grid.hexahedra, CellSplit::none).empty());
+}
+
+TEST(ElementCheck, hexahedraShareTheirVolumeOut) {
+  const RegularGrid grid = makeRegularGrid({3, 4, 3}, Vec3::Zero(), Vec3(1, 2, 3));
+  const auto volumes = lumpedVolumes(grid.positions, grid.hexahedra);
+  for (std::size_t i = 0; i < volumes.size(); ++i) EXPECT_NEAR(volumes[i], grid.volumes[i], 1e-14);
+  // x -> (x, y, z (1 + x y)): the top is a bilinear patch, the volume 1 + 1/4
+  std::vector<Vec3> warped{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                           {0, 0, 1}, {1, 0, 1}, {1, 1, 2}, {0, 1, 1}};
+  const std::vector<Hexahedron> one{{0, 1, 2, 3, 4, 5, 6, 7}};
+  double sum = 0;
+  for (const double v : lumpedVolumes(warped, one)) sum += v;
+  EXPECT_NEAR(sum, 1.25, 1e-14);
 }
 
 TEST(RegularGrid, saysWhatIsWrong) {
