@@ -6,7 +6,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 # shellcheck disable=SC2034  # used by those who source this
 run_packages=(g++ cmake ninja-build libeigen3-dev libtinyxml2-dev libboost-dev libboost-filesystem-dev
-              libtbb-dev libcgal-dev libassimp-dev libcli11-dev libnanoflann-dev libbullet-dev)
+              libtbb-dev libcgal-dev libassimp-dev libcli11-dev libnanoflann-dev libbullet-dev
+              nlohmann-json3-dev libjs-chart.js)
 
 # Installs the Debian packages that are missing; as root, else by sudo. Where neither is possible it prints the
 # command and stops.

@@ -21,6 +21,20 @@ class HookeCauchy {
     return lame_.mu * e.squaredNorm() + 0.5 * lame_.lambda * e.trace() * e.trace();
   }
   [[nodiscard]] Mat3 stress(const Mat3& F) const { return hooke(strain(F)); }
+
+  // The same stress for the inner loops: columns of F as registers of at least three lanes.
+  template <class Lanes>
+  void stressColumns(const Lanes& f0, const Lanes& f1, const Lanes& f2, Lanes& p0, Lanes& p1,
+                     Lanes& p2) const {
+    const double mu2 = 2 * lame_.mu, trace = f0[0] + f1[1] + f2[2] - 3;
+    const double all = lame_.lambda * trace - mu2;
+    const double s01 = lame_.mu * (f0[1] + f1[0]), s12 = lame_.mu * (f1[2] + f2[1]);
+    const double s02 = lame_.mu * (f0[2] + f2[0]);
+    p0 = Lanes{mu2 * f0[0] + all, s01, s02};
+    p1 = Lanes{s01, mu2 * f1[1] + all, s12};
+    p2 = Lanes{s02, s12, mu2 * f2[2] + all};
+  }
+
   [[nodiscard]] Tangent tangent(const Mat3&) const { return {}; }
   // The law is convex, so the filtered tangent is the tangent.
   [[nodiscard]] FilteredTangent filteredTangent(const Mat3&) const { return {}; }

@@ -30,6 +30,20 @@ class VolumePenalty {
     const Mat3 C = cofactorMatrix(F);
     return k_ * (F.col(0).dot(C.col(0)) - 1) * C;
   }
+  // The same, added to what the columns hold: F as registers of at least three lanes.
+  template <class Lanes>
+  void addStressColumns(const Lanes& f0, const Lanes& f1, const Lanes& f2, Lanes& p0, Lanes& p1,
+                        Lanes& p2) const {
+    const auto cross = [](const Lanes& a, const Lanes& b) {
+      return Lanes{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    };
+    const Lanes c0 = cross(f1, f2), m = f0 * c0;
+    const double pressure = k_ * (m[0] + m[1] + m[2] - 1);
+    p0 += pressure * c0;
+    p1 += pressure * cross(f2, f0);
+    p2 += pressure * cross(f0, f1);
+  }
+
   [[nodiscard]] Tangent tangent(const Mat3& F) const {
     const Mat3 C = cofactorMatrix(F);
     return {F, C, k_ * (F.col(0).dot(C.col(0)) - 1)};
@@ -56,6 +70,46 @@ class VolumePenalty {
 
  private:
   double k_;
+};
+
+// A law and the penalty, evaluated together.
+template <class Law>
+class WithVolumePenalty {
+ public:
+  struct Tangent {
+    typename Law::Tangent law;
+    VolumePenalty::Tangent penalty;
+  };
+  struct FilteredTangent {
+    typename Law::FilteredTangent law;
+    VolumePenalty::FilteredTangent penalty;
+  };
+
+  WithVolumePenalty(const Law& law, const VolumePenalty& penalty) : law_(law), penalty_(penalty) {}
+
+  [[nodiscard]] double energy(const Mat3& F) const { return law_.energy(F) + penalty_.energy(F); }
+  [[nodiscard]] Mat3 stress(const Mat3& F) const { return law_.stress(F) + penalty_.stress(F); }
+  template <class Lanes>
+  requires requires(const Law& law, Lanes v) { law.stressColumns(v, v, v, v, v, v); }
+  void stressColumns(const Lanes& f0, const Lanes& f1, const Lanes& f2, Lanes& p0, Lanes& p1,
+                     Lanes& p2) const {
+    law_.stressColumns(f0, f1, f2, p0, p1, p2);
+    penalty_.addStressColumns(f0, f1, f2, p0, p1, p2);
+  }
+  [[nodiscard]] Tangent tangent(const Mat3& F) const {
+    return {law_.tangent(F), penalty_.tangent(F)};
+  }
+  [[nodiscard]] FilteredTangent filteredTangent(const Mat3& F) const {
+    return {law_.filteredTangent(F), penalty_.filteredTangent(F)};
+  }
+  template <class T>
+  [[nodiscard]] Mat3 dStress(const T& t, const Mat3& dF) const {
+    return law_.dStress(t.law, dF) + penalty_.dStress(t.penalty, dF);
+  }
+
+ private:
+  Law law_;
+  VolumePenalty penalty_;
 };
 
 }  // namespace stroma

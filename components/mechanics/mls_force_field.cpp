@@ -9,6 +9,7 @@
 #include "components/material/hooke_corotated.h"
 #include "components/material/hooke_green.h"
 #include "components/material/stable_neo_hookean.h"
+#include "components/material/volume_penalty.h"
 #include "components/mechanics/mls_elasticity.h"
 #include "components/mechanics/second_order.h"
 #include "core/scene.h"
@@ -257,18 +258,24 @@ void MLSForceField::bind() {
   }
 }
 
+template <class Material>
+std::unique_ptr<MLSForceField::Law> MLSForceField::lawOf(const Material& law) const {
+  if (volumeStiffness_ == 0) return std::make_unique<LawOf<Material>>(law, *bonds_);
+  const WithVolumePenalty both(law, VolumePenalty(volumeStiffness_));
+  return std::make_unique<LawOf<WithVolumePenalty<Material>>>(both, *bonds_);
+}
+
 std::unique_ptr<MLSForceField::Law> MLSForceField::makeLaw() const {
   const double E = youngModulus, nu = poissonRatio;
-  if (material == MaterialLaw::stableNeoHookean) {
-    return std::make_unique<LawOf<StableNeoHookean>>(StableNeoHookean(E, nu), *bonds_);
-  }
-  if (strain == StrainMeasure::cauchy) {
-    return std::make_unique<LawOf<HookeCauchy>>(HookeCauchy(E, nu), *bonds_);
-  }
-  if (strain == StrainMeasure::green) {
-    return std::make_unique<LawOf<HookeGreen>>(HookeGreen(E, nu), *bonds_);
-  }
-  return std::make_unique<LawOf<HookeCorotated>>(HookeCorotated(E, nu), *bonds_);
+  if (material == MaterialLaw::stableNeoHookean) return lawOf(StableNeoHookean(E, nu));
+  if (strain == StrainMeasure::cauchy) return lawOf(HookeCauchy(E, nu));
+  if (strain == StrainMeasure::green) return lawOf(HookeGreen(E, nu));
+  return lawOf(HookeCorotated(E, nu));
+}
+
+void MLSForceField::addVolumeStiffness(double more) {
+  volumeStiffness_ += more;
+  if (bonds_) law_ = makeLaw();
 }
 
 void MLSForceField::schedule(Schedule& schedule) {
@@ -293,10 +300,7 @@ void MLSForceField::addForce(const StateView& at, Vec3Span f) { law_->addForces(
 double MLSForceField::potentialEnergy(const StateView& at) const { return law_->energy(at.x); }
 
 double MLSForceField::energyOf(std::span<const Index> particles) const {
-  const ConstVec3Span x = mechanicalState->x();
-  double sum = law_->energyOf(x, particles);
-  for (const EnergyOf& sharer : sharers_) sum += sharer(x, particles);
-  return sum;
+  return law_->energyOf(mechanicalState->x(), particles);
 }
 
 void MLSForceField::linearize(const StateView& at) { law_->prepareTangent(at.x, tangent); }

@@ -12,7 +12,6 @@
 // refitted become first-order ones beside a cut; the weights of the energy's sum stay.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -220,10 +219,9 @@ class MLSForceField final : public ForceField, public StressField {
   [[nodiscard]] const TopologyModifier* modifier() const { return cut_ ? cut_->modifier : nullptr; }
   // The particles as the last change has left them. Only with a modifier.
   [[nodiscard]] CutParticles cutParticles() const;
-  // Calls `energyOf(x, particles)` before and after a change of the bonds, too: for a force field
-  // that shares them. Only before the scene starts.
-  using EnergyOf = std::function<double(ConstVec3Span, std::span<const Index>)>;
-  void countEnergyOf(EnergyOf energyOf) { sharers_.push_back(std::move(energyOf)); }
+  // Adds to the stiffness (Pa) of a penalty on the particles' volumes, which is evaluated with the
+  // material.
+  void addVolumeStiffness(double more);
   // Lets points follow the change that topologyChanged() has just followed; `cut` as in
   // concernedPoints(). Does nothing for points that have followed it already.
   void follow(RidingPoints& points, ConstVec3Span rest, bool cut, const TopologyChange& change);
@@ -261,6 +259,8 @@ class MLSForceField final : public ForceField, public StressField {
   void reportRanks();
   void buildBonds();
   [[nodiscard]] std::unique_ptr<Law> makeLaw() const;
+  template <class Material>
+  [[nodiscard]] std::unique_ptr<Law> lawOf(const Material& material) const;
   void publishStress(const StepContext& step);
 
   [[nodiscard]] const Gradients& plainGradients() const {
@@ -287,7 +287,7 @@ class MLSForceField final : public ForceField, public StressField {
   std::optional<ProjectionReport> projection_;
   std::unique_ptr<MlsBonds> bonds_;
   std::unique_ptr<Law> law_;
-  std::vector<EnergyOf> sharers_;
+  double volumeStiffness_ = 0;
   std::unique_ptr<Cut> cut_;
 };
 

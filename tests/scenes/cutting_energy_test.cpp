@@ -46,7 +46,7 @@ class EnergyAccount {
 
  private:
   static bool isTissue(const ForceField& field) {
-    return field.type() == "MLSForceField" || field.type() == "VolumeConstraint";
+    return field.type() == "MLSForceField";
   }
   std::vector<Vec3> force(ForceField& field) {
     std::vector<Vec3> f(static_cast<std::size_t>(field.state().size()), Vec3::Zero());

@@ -20,7 +20,9 @@ namespace fs = std::filesystem;
 std::vector<std::string> shippedScenes() {
   std::vector<std::string> scenes;
   for (const auto& entry : fs::recursive_directory_iterator(STROMA_SCENES)) {
-    if (entry.path().extension() == ".xml") {
+    // what lies in studies itself are studies; their scenes are one folder deeper
+    const bool isStudy = entry.path().parent_path().filename() == "studies";
+    if (entry.path().extension() == ".xml" && !isStudy) {
       scenes.push_back(fs::relative(entry.path(), STROMA_SCENES).string());
     }
   }

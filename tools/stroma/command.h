@@ -48,6 +48,7 @@ void addCheck(CLI::App& app, int& exitCode);
 void addPlan(CLI::App& app, int& exitCode);
 void addComponents(CLI::App& app, int& exitCode);
 void addSchema(CLI::App& app, int& exitCode);
+void addStudy(CLI::App& app, int& exitCode);
 void addDescribe(CLI::App& app, int& exitCode);
 
 }  // namespace stroma::cli

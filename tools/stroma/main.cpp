@@ -16,6 +16,7 @@ constexpr const char* closing =
     "  stroma run scenes/cornea/pull.xml\n"
     "  stroma run scenes/cornea/pull.xml --time 0.5 --set /cornea/grip.scale=-1 --out out/push\n"
     "  stroma check scenes/*/*.xml\n"
+    "  stroma study scenes/studies/bending.xml\n"
     "  stroma components MLSForceField\n"
     "`stroma COMMAND --help` tells more.\n\n"
     "Exit codes: 0 done, 1 wrong usage, 2 scene invalid, 3 diverged, 4 trouble with output or\n"
@@ -49,6 +50,7 @@ int main(int argc, char** argv) {
   cli::addRun(app, exitCode);
   cli::addCheck(app, exitCode);
   cli::addPlan(app, exitCode);
+  cli::addStudy(app, exitCode);
   cli::addComponents(app, exitCode);
   cli::addSchema(app, exitCode);
   cli::addDescribe(app, exitCode);

@@ -187,9 +187,9 @@ TEST(HookeGreen, uniaxialStressHasItsLimitPoint) {
   }
 }
 
-TEST(HookeGreen, columnsGiveTheSameStress) {
+template <class Law>
+void expectTheSameByColumns(const Law& law) {
   using Lanes = double __attribute__((vector_size(32)));
-  const HookeGreen law(youngModulus, poissonRatio);
   std::mt19937 random(4);
   const Mat3 F = randomState(random), P = law.stress(F);
   const auto lanes = [&F](int k) { return Lanes{F(0, k), F(1, k), F(2, k), 0}; };
@@ -197,6 +197,31 @@ TEST(HookeGreen, columnsGiveTheSameStress) {
   law.stressColumns(lanes(0), lanes(1), lanes(2), p[0], p[1], p[2]);
   for (int k = 0; k < 3; ++k)
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(p[k][c], P(c, k), 1e-12 * P.norm());
+}
+
+TEST(WithVolumePenalty, isTheSumOfBoth) {
+  const HookeCorotated law(youngModulus, poissonRatio);
+  const VolumePenalty penalty(2 * youngModulus);
+  const WithVolumePenalty both(law, penalty);
+  std::mt19937 random(5);
+  const Mat3 F = randomState(random), D = randomMatrix(random, 1);
+  EXPECT_EQ(both.energy(F), law.energy(F) + penalty.energy(F));
+  EXPECT_EQ(both.stress(F), law.stress(F) + penalty.stress(F));
+  EXPECT_EQ(both.dStress(both.tangent(F), D),
+            law.dStress(law.tangent(F), D) + penalty.dStress(penalty.tangent(F), D));
+  EXPECT_EQ(
+      both.dStress(both.filteredTangent(F), D),
+      law.dStress(law.filteredTangent(F), D) + penalty.dStress(penalty.filteredTangent(F), D));
+}
+
+TEST(Columns, giveTheSameStress) {
+  const HookeCauchy cauchy(youngModulus, poissonRatio);
+  const HookeGreen green(youngModulus, poissonRatio);
+  const VolumePenalty penalty(2 * youngModulus);
+  expectTheSameByColumns(cauchy);
+  expectTheSameByColumns(green);
+  expectTheSameByColumns(WithVolumePenalty(cauchy, penalty));
+  expectTheSameByColumns(WithVolumePenalty(green, penalty));
 }
 
 TEST(StableNeoHookean, classicFormHasTheTextbookUniaxialStress) {
