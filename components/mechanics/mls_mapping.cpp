@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/mechanics/mls_mapping.h"
 
+#include <cstring>
+
 namespace stroma {
 
 void MLSMapping::bind() {
@@ -13,6 +15,7 @@ void MLSMapping::bind() {
 }
 
 void MLSMapping::findShape() {
+  positions_ = velocities_ = {};
   const Index supports = supportCount > 0 ? *supportCount : *forceField->surfaceSupport;
   const auto triangles = surface ? surface->triangles() : std::span<const Triangle>{};
   points_ = forceField->shapeOf(out->rest(), triangles, supports);
@@ -29,6 +32,7 @@ void MLSMapping::start() {
 
 void MLSMapping::topologyChanged(const TopologyChange& change) {
   if (!forceField->modifier() || &change.particles != in.get()) return;
+  positions_ = velocities_ = {};
   forceField->follow(*points_, out->rest(), isCut(), change);
   freeChips.add(static_cast<std::uint64_t>(points_->newChips));
   points_->shape.applyTo(points_->redone, in->x(), out->x());
@@ -46,12 +50,22 @@ void MLSMapping::checkTopology(TopologyCheck& check) const {
   checkPoints(*points_, out->rest(), forceField->cutParticles(), path() + ": node", check);
 }
 
+// To the bit; remembers what it was asked.
+bool MLSMapping::Last::isStill(ConstVec3Span particles, Vec3Span points) {
+  const bool same = out == points.data() && in.size() == particles.size() &&
+                    std::memcmp(in.data(), particles.data(), particles.size_bytes()) == 0;
+  if (!same) in.assign(particles.begin(), particles.end());
+  out = points.data();
+  return same;
+}
+
 void MLSMapping::apply(ConstVec3Span particles, Vec3Span points) const {
-  points_->shape.apply(particles, points);
+  if (!positions_.isStill(particles, points)) points_->shape.apply(particles, points);
 }
 
 void MLSMapping::applyJ(ConstVec3Span particles, Vec3Span points) const {
-  points_->shape.apply(particles, points);
+  const bool isState = points.data() == out->v().data();  // not some direction of a solver
+  if (!isState || !velocities_.isStill(particles, points)) points_->shape.apply(particles, points);
 }
 
 void MLSMapping::addTransposed(ConstVec3Span points, Vec3Span particles) const {

@@ -50,10 +50,17 @@ class MLSMapping final : public Mapping {
   [[nodiscard]] const SurfaceShape& shape() const { return points_->shape; }
 
  private:
+  // What was mapped last: solvers ask for the end of a step again at the beginning of the next.
+  struct Last {
+    std::vector<Vec3> in;
+    const Vec3* out = nullptr;
+    [[nodiscard]] bool isStill(ConstVec3Span particles, Vec3Span points);
+  };
   void findShape();
   [[nodiscard]] bool isCut() const;  // whether its nodes are those of the surface that is cut
 
   std::shared_ptr<RidingPoints> points_;
+  mutable Last positions_, velocities_;
 };
 
 }  // namespace stroma

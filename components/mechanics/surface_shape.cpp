@@ -373,6 +373,16 @@ void SurfaceShape::applyTo(std::span<const Index> some, ConstVec3Span particles,
 }
 
 void SurfaceShape::addTransposed(ConstVec3Span points, Vec3Span particles) const {
+  const auto isLoaded = [](const Vec3& f) { return !f.isZero(0); };
+  const auto loaded = std::ranges::count_if(points, isLoaded);
+  constexpr Index few = 8;  // a tool or a grip touches few of the points
+  if (few * loaded < pointCount()) {
+    for (Index s = 0; s < pointCount() && loaded > 0; ++s) {
+      if (!isLoaded(points[s])) continue;
+      for (const ShapeEntry& e : shapeOf(s)) particles[e.particle] += e.weight * points[s];
+    }
+    return;
+  }
   parallelFor(particleCount(), [&](Index a) {
     Vec3 sum = Vec3::Zero();
     for (const PointEntry& e : pointsOn(a)) sum += e.weight * points[e.point];
