@@ -89,6 +89,11 @@ class WithVolumePenalty {
 
   [[nodiscard]] double energy(const Mat3& F) const { return law_.energy(F) + penalty_.energy(F); }
   [[nodiscard]] Mat3 stress(const Mat3& F) const { return law_.stress(F) + penalty_.stress(F); }
+  // With the closest rotation R, where the law can be told it.
+  [[nodiscard]] Mat3 stress(const Mat3& F, const Mat3& R) const requires requires(const Law& law) {
+    law.stress(F, R);
+  }
+  { return law_.stress(F, R) + penalty_.stress(F); }
   template <class Lanes>
   requires requires(const Law& law, Lanes v) { law.stressColumns(v, v, v, v, v, v); }
   void stressColumns(const Lanes& f0, const Lanes& f1, const Lanes& f2, Lanes& p0, Lanes& p1,

@@ -11,6 +11,7 @@
 // particle. Nothing is allocated after construction except by prepareTangent. Units: SI.
 #pragma once
 
+#include "components/material/closest_rotations.h"
 #include "components/material/elastic_law.h"
 #include "components/mechanics/mls_bonds.h"
 #include "core/parallel.h"
@@ -83,6 +84,11 @@ class MlsElasticity {
   void assembleStiffness(Add&& add) const;
 
  private:
+  // Whether the law can be told the closest rotation.
+  static constexpr bool usesRotation = requires(const Material& m, const Mat3& F) {
+    m.stress(F, F);
+  };
+
   struct alignas(32) Columns {
     Vec4 c[3];
   };
@@ -161,6 +167,9 @@ class MlsElasticity {
   // stress_[i] and residual_[i] from the motion; response maps its gradient to a stress.
   template <bool Control, class Response>
   [[gnu::always_inline]] void gatherStress(Index i, Response&& response);
+  // The same for up to eight particles from `first` on, whose rotations are found at once.
+  template <bool Control>
+  void gatherStresses(Index first, int count);
   // Force on i from the stresses of the particles that have it as a neighbour, and its own.
   template <bool Control>
   [[gnu::always_inline]] Vec4 gatherForce(Index i) const;
@@ -262,9 +271,35 @@ inline Vec4 MlsElasticity<Material>::gatherForce(Index i) const {
 
 template <class Material>
 template <bool Control>
+void MlsElasticity<Material>::gatherStresses(Index first, int count) {
+  MatrixBatch F, R;
+  for (int k = 0; k < count; ++k) {
+    gatherStress<Control>(first + k, [&](const Columns& h) {
+      F[k] = unpack(h.c[0], h.c[1], h.c[2]) + Mat3::Identity();
+      return Columns{};
+    });
+  }
+  std::fill(F.begin() + count, F.end(), Mat3::Identity());
+  closestRotations(F, R);
+  for (int k = 0; k < count; ++k) {
+    const Columns p = pack(material_.stress(F[k], R[k]));
+    for (int c = 0; c < 3; ++c) stress_[first + k].c[c] += p.c[c];
+  }
+}
+
+template <class Material>
+template <bool Control>
 void MlsElasticity<Material>::addMotionForces(Vec3Span f) {
-  const auto law = [this](const Columns& h) { return stressOf(h); };
-  parallelFor(bonds_.particleCount(), [&](Index i) { gatherStress<Control>(i, law); });
+  if constexpr (usesRotation) {
+    static_assert(defaultChunk % rotationBatch == 0, "a batch is in one chunk");
+    parallelChunks(bonds_.particleCount(), defaultChunk, [&](Index begin, Index end) {
+      for (Index i = begin; i < end; i += rotationBatch)
+        gatherStresses<Control>(i, std::min(rotationBatch, end - i));
+    });
+  } else {
+    const auto law = [this](const Columns& h) { return stressOf(h); };
+    parallelFor(bonds_.particleCount(), [&](Index i) { gatherStress<Control>(i, law); });
+  }
   for (const DeficientParticle& d : bonds_.deficient())
     gatherStress<Control>(d.particle, [&](const Columns& h) {
       const Mat3 F = unpack(h.c[0], h.c[1], h.c[2]) + Mat3::Identity();

@@ -131,4 +131,24 @@ std::vector<std::string> sentences(std::span<const Point> points, const Budgets&
   return said;
 }
 
+std::string orderOfCosts(std::vector<Point> points, const std::string& cost) {
+  if (points.empty()) return "No variation was run to its end.";
+  std::ranges::stable_sort(points, {}, &Point::cost);
+  const Point& first = points.front();
+  std::string text =
+      "The fastest is " + first.label + " (" + rounded(first.cost) + " " + cost + ")";
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Point& p = points[i];
+    text += (i == 1 ? "; then " : ", ") + p.label + " (" + rounded(p.cost) + ", " +
+            rounded(p.cost / first.cost) + " times" +
+            (p.least <= first.most ? ", within the spread)" : ")");
+  }
+  return text + ".";
+}
+
+std::string beside(const std::string& published, double ms, const Point& ours) {
+  return published + ": " + rounded(ms) + " ms, " + rounded(ms / ours.cost) + " times " +
+         ours.label + " (" + rounded(ours.cost) + " ms), on another machine.";
+}
+
 }  // namespace stroma::study

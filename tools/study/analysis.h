@@ -39,4 +39,9 @@ struct Budgets {
 [[nodiscard]] std::vector<std::string> sentences(std::span<const Point> points,
                                                  const Budgets& budgets);
 
+// Where nothing has an error to compare: every point by rising cost, beside the cheapest.
+[[nodiscard]] std::string orderOfCosts(std::vector<Point> points, const std::string& cost);
+// "... took 18 ms, 140 times ours (...)": a published cost beside the point it is set against.
+[[nodiscard]] std::string beside(const std::string& published, double ms, const Point& ours);
+
 }  // namespace stroma::study

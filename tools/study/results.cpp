@@ -163,20 +163,30 @@ class Summary {
   static void conclude(const Question& question, Json& json) {
     std::vector<Point> points;
     std::vector<std::size_t> rows;
+    std::vector<Point> timed;  // those without an error, too
     for (std::size_t i = 0; i < json["rows"].size(); ++i) {
       const Json& row = json["rows"][i];
-      if (row.value("error", Json()).is_null()) continue;
+      if (row.value("cost_ms", Json()).is_null()) continue;
       const Json& ms = row["ms_per_step"];
       const double steps = question.costOfRun ? row["steps"].get<double>() : 1;
-      points.push_back({row["method"], row["label"], row["cost_ms"], row["error"],
-                        steps * ms["min"].get<double>(), steps * ms["max"].get<double>()});
+      timed.push_back({row["method"], row["label"], row["cost_ms"], 0,
+                       steps * ms["min"].get<double>(), steps * ms["max"].get<double>()});
+      if (row.value("error", Json()).is_null()) continue;
+      points.push_back(timed.back());
+      points.back().error = row["error"];
       rows.push_back(i);
     }
     json["pareto"] = Json::array();
     for (const std::size_t p : paretoFront(points)) json["pareto"].push_back(rows[p]);
     json["series"] = seriesOf(question, json["rows"]);
-    json["sentences"] = sentences(points, {question.errorBudgets, question.msBudgets,
-                                           question.costOfRun ? "ms for the run" : "ms a step"});
+    const std::string cost = question.costOfRun ? "ms for the run" : "ms a step";
+    json["sentences"] = sentences(points, {question.errorBudgets, question.msBudgets, cost});
+    if (points.empty()) json["sentences"] = {orderOfCosts(timed, cost)};
+    for (const Published& p : question.published) {
+      const auto ours = std::ranges::find_if(
+          timed, [&](const Point& t) { return p.method.empty() || t.method == p.method; });
+      if (ours != timed.end()) json["sentences"].push_back(beside(p.name, p.ms, *ours));
+    }
   }
 
   // Rows that differ in h only, each with its order of convergence.

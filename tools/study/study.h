@@ -72,6 +72,7 @@ struct Skip {
 // A figure from elsewhere, shown beside ours.
 struct Published {
   std::string name, source;
+  std::string method;  // of ours that it is set against; the first one if empty
   double ms = 0;
   std::optional<double> error;
 };

@@ -243,6 +243,12 @@ class Reader {
     Published& published = question.published.emplace_back();
     published.name = reader.required("name");
     published.source = reader.text("source");
+    published.method = reader.text("method");
+    if (!published.method.empty() && !isAmong(published.method, methods_)) {
+      reader.error(reader.placeOf("method"), "method-unknown",
+                   "there is no method " + stroma::quoted(published.method),
+                   didYouMean(published.method, methods_));
+    }
     double seconds = 0;
     reader.required("ms");
     reader.time("ms", seconds, true);

@@ -79,6 +79,17 @@ TEST(Sentences, sayThatABudgetIsOutOfReach) {
   EXPECT_EQ(sentences({}, {{0.05}, {1}}).size(), 1u);
 }
 
+TEST(Sentences, orderWhatHasNoErrorByItsCost) {
+  EXPECT_EQ(orderOfCosts({{"a", "a", 0.5, 0, 0.4, 0.6},
+                          {"b", "b", 0.25, 0, 0.2, 0.45},
+                          {"c", "c", 1, 0, 0.9, 1.1}},
+                         "ms a step"),
+            "The fastest is b (0.25 ms a step); then a (0.5, 2 times, within the spread), c (1, 4 "
+            "times).");
+  EXPECT_EQ(beside("paper", 18, {"a", "a, 4", 0.125, 0, 0.1, 0.2}),
+            "paper: 18 ms, 144 times a, 4 (0.125 ms), on another machine.");
+}
+
 Axis axis(const std::string& name, const std::vector<std::string>& points) {
   Axis made;
   made.name = name;
