@@ -7,6 +7,7 @@
 
 #include "components/material/symmetric_eigen.h"
 #include "core/snapshot.h"
+#include "core/sorted_ids.h"
 #include "core/system.h"
 
 namespace stroma {
@@ -55,20 +56,25 @@ void EnergyDebt::owe(double energy, std::span<const Index> particles) {
 
 void EnergyDebt::pay(System& system, const MechanicalState& state) {
   if (!(owed_ > 0)) return;
-  const auto mass = system.mass().subspan(static_cast<std::size_t>(system.offsetOf(state)));
+  const Index offset = system.offsetOf(state);
+  const auto mass = system.mass().subspan(static_cast<std::size_t>(offset));
   const Vec3Span v = state.v();
-  const RigidMotion motion = commonMotion(particles_, mass, state.x(), v);
+  std::vector<Index> fixed;  // what is held in any direction does not give
+  for (const ParticleProjector& p : system.projectors()) fixed.push_back(p.particle - offset);
+  sortUnique(fixed);
+  std::vector<Index> free;
+  std::ranges::set_difference(particles_, fixed, std::back_inserter(free));
+  if (free.empty()) return;
+  const RigidMotion motion = commonMotion(free, mass, state.x(), v);
   double held = 0;
-  for (const Index i : particles_)
-    held += 0.5 * mass[i] * (v[i] - motion.at(state.x()[i])).squaredNorm();
+  for (const Index i : free) held += 0.5 * mass[i] * (v[i] - motion.at(state.x()[i])).squaredNorm();
   if (!(held > 0)) return;
   const double payment = std::min(held, owed_);
   const double kept = std::sqrt(1 - payment / held);
-  for (const Index i : particles_) {
+  for (const Index i : free) {
     const Vec3 rigid = motion.at(state.x()[i]);
     v[i] = rigid + kept * (v[i] - rigid);
   }
-  system.project(system.v());
   owed_ -= payment;
   paid_ += payment;
   if (owed_ == 0) particles_.clear();

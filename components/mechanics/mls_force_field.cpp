@@ -232,7 +232,7 @@ void MLSForceField::reportRanks() {
 void MLSForceField::buildBonds() {
   MlsBonds bonds(mechanicalState->rest(), neighbourhoods_, transposed_, gradients_, volumes_,
                  *zeroEnergyControl * *youngModulus);
-  // in place: a volume constraint refers to them
+  // in place: who has asked for bonds() keeps them
   if (bonds_) {
     *bonds_ = std::move(bonds);
   } else {
@@ -260,8 +260,10 @@ void MLSForceField::bind() {
 
 template <class Material>
 std::unique_ptr<MLSForceField::Law> MLSForceField::lawOf(const Material& law) const {
-  if (volumeStiffness_ == 0) return std::make_unique<LawOf<Material>>(law, *bonds_);
-  const WithVolumePenalty both(law, VolumePenalty(volumeStiffness_));
+  double stiffness = 0;
+  for (const Attribute<double>* one : volumeStiffness_) stiffness += *one;
+  if (stiffness == 0) return std::make_unique<LawOf<Material>>(law, *bonds_);
+  const WithVolumePenalty both(law, VolumePenalty(stiffness));
   return std::make_unique<LawOf<WithVolumePenalty<Material>>>(both, *bonds_);
 }
 
@@ -273,8 +275,12 @@ std::unique_ptr<MLSForceField::Law> MLSForceField::makeLaw() const {
   return lawOf(HookeCorotated(E, nu));
 }
 
-void MLSForceField::addVolumeStiffness(double more) {
-  volumeStiffness_ += more;
+void MLSForceField::addVolumeStiffness(const Attribute<double>& stiffness) {
+  volumeStiffness_.push_back(&stiffness);
+  changeLaw();
+}
+
+void MLSForceField::changeLaw() {
   if (bonds_) law_ = makeLaw();
 }
 

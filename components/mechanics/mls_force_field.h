@@ -219,9 +219,10 @@ class MLSForceField final : public ForceField, public StressField {
   [[nodiscard]] const TopologyModifier* modifier() const { return cut_ ? cut_->modifier : nullptr; }
   // The particles as the last change has left them. Only with a modifier.
   [[nodiscard]] CutParticles cutParticles() const;
-  // Adds to the stiffness (Pa) of a penalty on the particles' volumes, which is evaluated with the
-  // material.
-  void addVolumeStiffness(double more);
+  // The stiffness (Pa) of a penalty on the particles' volumes, evaluated with the material; it must
+  // live as long as this, and changeLaw() be called when it changes.
+  void addVolumeStiffness(const Attribute<double>& stiffness);
+  void changeLaw();
   // Lets points follow the change that topologyChanged() has just followed; `cut` as in
   // concernedPoints(). Does nothing for points that have followed it already.
   void follow(RidingPoints& points, ConstVec3Span rest, bool cut, const TopologyChange& change);
@@ -287,7 +288,7 @@ class MLSForceField final : public ForceField, public StressField {
   std::optional<ProjectionReport> projection_;
   std::unique_ptr<MlsBonds> bonds_;
   std::unique_ptr<Law> law_;
-  double volumeStiffness_ = 0;
+  std::vector<const Attribute<double>*> volumeStiffness_;
   std::unique_ptr<Cut> cut_;
 };
 

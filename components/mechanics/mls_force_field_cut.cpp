@@ -84,7 +84,9 @@ void MLSForceField::topologyChanged(const TopologyChange& change) {
   bonds_->followRows(neighbourhoods_, transposed_, gradients_, rows, ends);
   if (!change.energy) return;
   change.energy->added += energyOf(rows) - before;
-  change.energy->particles = std::move(rows);
+  std::vector<Index>& particles = change.energy->particles;
+  particles.insert(particles.end(), rows.begin(), rows.end());
+  sortUnique(particles);
 }
 
 // Replaces the rows to be relinked. Returns the neighbours that they had.

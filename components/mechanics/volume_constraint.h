@@ -21,15 +21,8 @@ class VolumeConstraint final : public Component {
   Link<MLSForceField> forceField{this, "forceField", "Whose particles and gradients are used.",
                                  Lookup::sameNode};
 
-  void bind() override { apply(); }
-  void attributeChanged(const AttributeBase&) override { apply(); }
-
- private:
-  void apply() {
-    forceField->addVolumeStiffness(stiffness - applied_);
-    applied_ = stiffness;
-  }
-  double applied_ = 0;
+  void bind() override { forceField->addVolumeStiffness(stiffness); }
+  void attributeChanged(const AttributeBase&) override { forceField->changeLaw(); }
 };
 
 }  // namespace stroma

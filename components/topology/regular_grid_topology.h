@@ -53,7 +53,11 @@ class RegularGridTopology final : public Topology {
   Attribute<std::vector<Hexahedron>> hexahedronList{
       this, "hexahedra", {}, "The cells.", {.output = true, .autolink = true}};
   Attribute<std::vector<Tetrahedron>> tetrahedronList{
-      this, "tetrahedra", {}, "The cells' tetrahedra.", {.output = true, .autolink = true}};
+      this,
+      "tetrahedra",
+      {},
+      "The cells' tetrahedra; src=\"@grid\" hands on the cells alone.",
+      {.output = true}};
   Attribute<std::vector<Quad>> quadList{
       this, "quads", {}, "Outer surface.", {.output = true, .autolink = true}};
   Attribute<std::vector<Triangle>> triangleList{this,

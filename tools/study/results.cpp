@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tools/study/analysis.h"
+#include "tools/study/names.h"
 
 namespace stroma::study {
 namespace {
@@ -118,10 +119,17 @@ class Summary {
     return row;
   }
 
+  [[nodiscard]] static Json measuredIn(const Json& result, const std::string& name) {
+    const auto all = result.find("measures");
+    if (all != result.end() && all->contains(name)) return all->at(name);
+    return {{"problem", "no measure '" + name +
+                            "' was taken there: its 'method' leaves out what it is compared with"}};
+  }
+
   // The measured value beside its reference.
   [[nodiscard]] Json compare(const Measure& measure, const Json& result,
                              const Variation& variation) const {
-    const Json& measured = result["measures"][measure.name];
+    const Json measured = measuredIn(result, measure.name);
     Json out{{"value", measured.value("value", Json())}, {"error", nullptr}};
     if (measured.contains("problem")) return out["problem"] = measured["problem"], out;
     Json reference;
@@ -139,8 +147,8 @@ class Summary {
     }
     const double wanted = reference["value"];
     // minus is too little, whichever way the value points
-    const double off =
-        (measured["value"].get<double>() - wanted) / (measure.scale > 0 ? measure.scale : wanted);
+    const double size = measure.scale > 0 ? std::copysign(measure.scale, wanted) : wanted;
+    const double off = (measured["value"].get<double>() - wanted) / size;
     out["reference"] = wanted;
     out["error"] = finiteOrNull(std::abs(off));
     out["signed_error"] = finiteOrNull(off);
@@ -152,7 +160,7 @@ class Summary {
       if (!v.isReference || v.question != question || v.method != measure.referenceRun) continue;
       const Json* result = resultOf(v);
       if (!result) break;
-      if ((*result)["status"] == "done") return (*result)["measures"][measure.name];
+      if ((*result)["status"] == "done") return measuredIn(*result, measure.name);
       return {{"problem", "the reference run '" + v.method + "' " +
                               (*result)["status"].get<std::string>() + ": " +
                               (*result)["message"].get<std::string>()}};
@@ -182,9 +190,21 @@ class Summary {
     const std::string cost = question.costOfRun ? "ms for the run" : "ms a step";
     json["sentences"] = sentences(points, {question.errorBudgets, question.msBudgets, cost});
     if (points.empty()) json["sentences"] = {orderOfCosts(timed, cost)};
+    const auto ended = std::ranges::count_if(
+        json["rows"], [](const Json& row) { return row["status"] == "done"; });
+    if (const auto all = std::ssize(json["rows"]); ended < all) {
+      json["sentences"].push_back(std::to_string(all - ended) + " of " + std::to_string(all) +
+                                  " variations gave no result: the table says why.");
+    }
+    for (const Json& reference : json["references"]) {
+      if (reference["status"] == "done") continue;
+      json["sentences"].push_back("The reference run " + reference["method"].get<std::string>() +
+                                  " gave no result: " + reference["status"].get<std::string>() +
+                                  " " + reference["message"].get<std::string>());
+    }
     for (const Published& p : question.published) {
       const auto ours = std::ranges::find_if(
-          timed, [&](const Point& t) { return p.method.empty() || t.method == p.method; });
+          timed, [&](const Point& t) { return p.method.empty() || fits(p.method, t.method); });
       if (ours != timed.end()) json["sentences"].push_back(beside(p.name, p.ms, *ours));
     }
   }

@@ -183,8 +183,10 @@ class Runner {
       const bool late = millisecondsSince(begin) > 1e3 * job_.timeBudget;
       if (!means_.empty() && (enough || late)) break;
       scene.reset();
-      agree_ = runOnce(scene) && scene.stateHash() == hash && agree_;
+      const bool ended = runOnce(scene);
+      agree_ = ended && scene.stateHash() == hash && agree_;
       timed += take();
+      if (!ended) break;
     }
   }
 
