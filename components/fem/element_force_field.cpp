@@ -1,46 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/fem/element_force_field.h"
 
-#include "components/fem/body_check.h"
 #include "components/material/hooke_cauchy.h"
 #include "components/material/hooke_corotated.h"
 #include "components/material/hooke_green.h"
 #include "components/material/stable_neo_hookean.h"
+#include "core/element_body.h"
 #include "core/schedule.h"
 
 namespace stroma {
 
 template <class Element>
-bool ElementForceField<Element>::checkElements() {
+bool ElementForceField<Element>::hasSoundElements() {
   const auto elements = Element::of(*topology);
-  const std::string plural(Element::plural);
-  if (elements.empty()) {
-    error(topology, "element-none", "'" + topology->path() + "' has no " + plural);
+  if (!checkElements(*this, topology, *mechanicalState, elements.size(), Element::plural))
     return false;
-  }
-  if (!checkSizes(*this, topology, *mechanicalState)) return false;
-  const auto flaw = ElementMesh<Element>::findFlaw(mechanicalState->rest(), elements);
+  const ElementFlaw flaw = ElementMesh<Element>::findFlaw(mechanicalState->rest(), elements);
   if (flaw.count == 0) return true;
-  std::string nodes;
-  for (const Index i : elements[static_cast<std::size_t>(flaw.first)])
-    nodes += (nodes.empty() ? "" : " ") + std::to_string(i);
-  error(topology, "element-inverted",
-        "'" + topology->path() + "' has " + std::to_string(flaw.count) + " of " +
-            std::to_string(elements.size()) + " " + plural +
-            " inverted or without volume; the first is number " + std::to_string(flaw.first) +
-            " (" + nodes + ")",
-        std::string(Element::order));
+  refuseFlaw(*this, topology, flaw, elements.size(), Element::plural,
+             elements[static_cast<std::size_t>(flaw.first)], Element::order);
   return false;
 }
 
 template <class Element>
 void ElementForceField<Element>::bind() {
-  if (!checkElements()) return;
+  if (!hasSoundElements()) return;
   mesh_ = std::make_unique<ElementMesh<Element>>(mechanicalState->rest(), Element::of(*topology));
   law_ = makeLaw();
   Index loose = 0;
   for (Index i = 0; i < mesh_->nodeCount(); ++i) loose += mesh_->placesOf(i).empty();
-  warnOfLooseNodes(*this, loose, mesh_->nodeCount(), "element");
+  warnOfLooseParticles(*this, loose, mesh_->nodeCount(), "element");
   if (computeVonMises) {
     const auto particles = static_cast<std::size_t>(mesh_->nodeCount());
     vonMises.set(std::vector<double>(particles, 0.0));
@@ -50,7 +39,10 @@ void ElementForceField<Element>::bind() {
 
 template <class Element>
 void ElementForceField<Element>::start() {
-  refuseCuts(*this, *mechanicalState, *topology);
+  refuseCuts(
+      *this, *mechanicalState, *topology,
+      "MLSForceField follows them; youngModulus, poissonRatio, material and strain mean the same "
+      "there");
 }
 
 template <class Element>

@@ -78,7 +78,7 @@ class ElementForceField : public ForceField, public StressField {
                                                        StrainMeasure strain) const;
 
  private:
-  [[nodiscard]] bool checkElements();
+  [[nodiscard]] bool hasSoundElements();
   void publishStress(const StepContext& step);
 
   std::unique_ptr<ElementMesh<Element>> mesh_;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "components/fem/elements.h"
+#include "core/element_body.h"
 
 namespace stroma {
 
@@ -24,11 +25,8 @@ class ElementMesh {
   };
 
   // Elements that are inverted at a point or have (nearly) no volume there.
-  struct Flaw {
-    Index first = -1, count = 0;
-  };
-  [[nodiscard]] static Flaw findFlaw(ConstVec3Span rest, std::span<const Nodes> elements) {
-    Flaw flaw;
+  [[nodiscard]] static ElementFlaw findFlaw(ConstVec3Span rest, std::span<const Nodes> elements) {
+    ElementFlaw flaw;
     for (std::size_t e = 0; e < elements.size(); ++e) {
       if (isSound(rest, elements[e])) continue;
       if (flaw.count++ == 0) flaw.first = static_cast<Index>(e);

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "components/fem/body_check.h"
+#include "core/element_body.h"
 
 namespace stroma {
 
@@ -41,7 +41,7 @@ void MeshSpringForceField::connect(const Kind& kind, std::span<const std::array<
 }
 
 void MeshSpringForceField::bind() {
-  if (!checkSizes(*this, topology, *mechanicalState)) return;
+  if (!checkPoints(*this, topology, *mechanicalState)) return;
   std::set<Edge> known;
   std::vector<Spring> springs;
   const std::array<Kind, 5> kind = kinds();
@@ -66,9 +66,11 @@ void MeshSpringForceField::bind() {
   springCount.set(springs_->springCount());
   Index loose = 0;
   for (Index i = 0; i < mechanicalState->size(); ++i) loose += springs_->springsOf(i) == 0;
-  warnOfLooseNodes(*this, loose, mechanicalState->size(), "spring");
+  warnOfLooseParticles(*this, loose, mechanicalState->size(), "spring");
 }
 
-void MeshSpringForceField::start() { refuseCuts(*this, *mechanicalState, *topology); }
+void MeshSpringForceField::start() {
+  refuseCuts(*this, *mechanicalState, *topology, "MLSForceField follows them");
+}
 
 }  // namespace stroma

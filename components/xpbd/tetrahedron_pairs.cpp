@@ -16,10 +16,9 @@ Mat3 edgesOf(ConstVec3Span x, const Tetrahedron& nodes) {
 
 }  // namespace
 
-TetrahedronPairs::Flaw TetrahedronPairs::findFlaw(ConstVec3Span rest,
-                                                  std::span<const Tetrahedron> elements) {
+ElementFlaw TetrahedronPairs::findFlaw(ConstVec3Span rest, std::span<const Tetrahedron> elements) {
   constexpr double flat = 1e-12;
-  Flaw flaw;
+  ElementFlaw flaw;
   for (std::size_t e = 0; e < elements.size(); ++e) {
     const Mat3 edges = edgesOf(rest, elements[e]);
     const double size = edges.colwise().norm().maxCoeff();

@@ -18,6 +18,7 @@
 
 #include "components/xpbd/colouring.h"
 #include "components/xpbd/xpbd_constraint.h"
+#include "core/element_body.h"
 
 namespace stroma {
 
@@ -40,10 +41,8 @@ struct TetrahedronPair {
 class TetrahedronPairs {
  public:
   // Elements that have no positive volume at rest, up to rounding.
-  struct Flaw {
-    Index first = -1, count = 0;
-  };
-  [[nodiscard]] static Flaw findFlaw(ConstVec3Span rest, std::span<const Tetrahedron> elements);
+  [[nodiscard]] static ElementFlaw findFlaw(ConstVec3Span rest,
+                                            std::span<const Tetrahedron> elements);
 
   // Every element must name points of `rest` and be without flaw.
   TetrahedronPairs(ConstVec3Span rest, std::span<const Tetrahedron> elements);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/element_body.h"
+
 namespace stroma {
 namespace {
 
@@ -31,7 +33,9 @@ std::vector<Edge> pairsOf(const Topology& topology) {
 
 void XpbdDistanceConstraint::bind() {
   const std::vector<Edge> edges = pairsOf(*topology);
-  if (!checkElements(edges.size(), "edges, triangles or tetrahedra")) return;
+  if (!checkElements(*this, topology, *mechanicalState, edges.size(),
+                     "edges, triangles or tetrahedra"))
+    return;
   const ConstVec3Span rest = mechanicalState->rest();
   const auto flat = std::ranges::find_if(edges, [&](const Edge& e) {
     return rest[static_cast<std::size_t>(e[0])] == rest[static_cast<std::size_t>(e[1])];
@@ -42,7 +46,7 @@ void XpbdDistanceConstraint::bind() {
               std::to_string((*flat)[0]) + " to " + std::to_string((*flat)[1]));
     return;
   }
-  warnOfLooseNodes({edges.front().data(), 2 * edges.size()});
+  warnOfLoose({edges.front().data(), 2 * edges.size()});
   edges_.emplace(rest, edges);
   edges_->setStiffness(stiffness);
   colours.set(edges_->colours());

@@ -32,10 +32,8 @@ class XpbdMeshConstraint : public XpbdConstraint {
   [[nodiscard]] MechanicalState& state() const override { return *mechanicalState; }
 
  protected:
-  // Whether there are elements, and the topology's points are the state's particles.
-  [[nodiscard]] bool checkElements(std::size_t count, std::string_view plural);
   // A warning for particles that none of the elements has.
-  void warnOfLooseNodes(std::span<const Index> nodes);
+  void warnOfLoose(std::span<const Index> nodes);
 
   Limiter skipped_{this, "skipped",
                    "projections left out because an element had collapsed or was not finite"};
