@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `stroma run SCENE`: makes the steps of a scene and reports what they did.
-#include <signal.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cmath>
 #include <ctime>
 #include <iostream>
@@ -14,6 +12,7 @@
 #include "core/rate_keeper.h"
 #include "core/traverse.h"
 #include "tools/stroma/command.h"
+#include "tools/stroma/interrupt.h"
 #include "tools/stroma/progress_bar.h"
 #include "tools/stroma/run_report.h"
 
@@ -30,17 +29,6 @@ struct Options {
   bool stepsGiven = false, profile = false, json = false, realTime = false;
   int threads = 1;
 };
-
-std::atomic<int> signalReceived{0};
-
-// The first signal ends the run after its step; a second one kills, as if nobody listened.
-void listenForSignals() {
-  struct sigaction action {};
-  action.sa_handler = [](int signal) { signalReceived = signal; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 double milliseconds(Clock::duration duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
@@ -100,7 +88,7 @@ class Run {
     }
     if (!options_.resume.empty() && !resume(scene)) return fileTrouble;
     scene.profiler().setEnabled(options_.profile);
-    listenForSignals();
+    listenForInterrupts();
     advance(scene);
     return finish(scene);
   }
@@ -185,7 +173,7 @@ class Run {
     const auto begin = Clock::now();
     const Diagnostics& diagnostics = scene.diagnostics();
     // an error while running: an exporter cannot write any more
-    while (scene.stepCount() < last && signalReceived == 0 && diagnostics.errorCount() == 0) {
+    while (scene.stepCount() < last && interruptSignal() == 0 && diagnostics.errorCount() == 0) {
       if (options_.realTime) pace.wait();
       if (!scene.step()) break;
       const std::uint64_t step = scene.stepCount();
@@ -203,7 +191,7 @@ class Run {
 
   int finish(Scene& scene) {
     report_.scene = options_.scene;
-    report_.interrupted = signalReceived != 0;
+    report_.interrupted = interruptSignal() != 0;
     scene.stop();
     if (scene.divergence()) {
       std::cerr << "stroma: diverged: " << scene.divergence()->message << "\n";
@@ -216,7 +204,7 @@ class Run {
     if (scene.divergence()) return diverged;
     if (fileTrouble_ || outputFailed(scene)) return fileTrouble;
     if (scene.diagnostics().errorCount() > 0) return sceneInvalid;
-    return report_.interrupted ? 128 + signalReceived : static_cast<int>(done);
+    return report_.interrupted ? 128 + interruptSignal() : static_cast<int>(done);
   }
 
   const Options& options_;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // `stroma study STUDY`: runs the variations of a study and reports what accuracy costs in time.
-#include <signal.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <iostream>
 #include <memory>
 
 #include "tools/stroma/command.h"
+#include "tools/stroma/interrupt.h"
 #include "tools/stroma/study_one.h"
 #include "tools/stroma/study_progress.h"
 #include "tools/study/job_pool.h"
@@ -28,16 +27,6 @@ struct Options {
   bool again = false, slurm = false, json = false;
   OneJob one;
 };
-
-std::atomic<int> signalReceived{0};
-
-void listenForSignals() {
-  struct sigaction action {};
-  action.sa_handler = [](int signal) { signalReceived = signal; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 fs::path standardCache() {
   if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) {
@@ -69,7 +58,7 @@ class StudyRun {
     if (!makeFolders() || !writeScenes()) return fileTrouble;
     collect();
     if (options_.slurm) return writeSlurm();
-    listenForSignals();
+    listenForInterrupts();
     if (!todo_.empty() && !runTodo(places)) return fileTrouble;
     return report();
   }
@@ -146,13 +135,13 @@ class StudyRun {
       results_[job.id] = result;
       progress.finished(job, result);
     };
-    events.stop = [] { return signalReceived != 0; };
+    events.stop = [] { return interruptSignal() != 0; };
     events.tick = [&] { progress.tick(); };
     std::error_code failure;
     const fs::path program = fs::read_symlink("/proc/self/exe", failure);
     const bool ended = study::runJobs(todo(), {program, out_, places}, events);
     progress.clear();
-    if (ended || signalReceived != 0) return true;
+    if (ended || interruptSignal() != 0) return true;
     std::cerr << "stroma: cannot start processes, or write into '" << out_.string() << "'\n";
     return false;
   }
@@ -202,7 +191,7 @@ class StudyRun {
                                 : study::textOf(summary) +
                                       "\nreport: " + (out_ / "report.html").string() + "\n")
               << std::flush;
-    if (signalReceived != 0) return 128 + signalReceived;
+    if (interruptSignal() != 0) return 128 + interruptSignal();
     for (const auto& [id, result] : results_) {
       if (result["status"] != "done") return diverged;
     }
