@@ -26,12 +26,9 @@ int runOne(const OneJob& one) {
     std::cerr << "stroma: '" << one.file << "' is not a job of a study: " << problem.what() << "\n";
     return wrongUsage;
   }
-  std::vector<int> cores = one.cores;
-  if (cores.empty()) {
-    cores = study::allowedCores();
-    cores.resize(std::min(cores.size(), static_cast<std::size_t>(job.threads)));
+  if (!one.cores.empty() && !study::pinToCores(one.cores)) {
+    std::cerr << "warning: cannot be tied to a core\n";
   }
-  if (!study::pinToCores(cores)) std::cerr << "warning: cannot be tied to a core\n";
   const Json result = study::runJob(job);
   const bool written =
       study::replaceFile(job.result, result.dump(1, ' ', false, Json::error_handler_t::replace));

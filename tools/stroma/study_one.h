@@ -9,7 +9,7 @@ namespace stroma::cli {
 // One variation of a study, in this process.
 struct OneJob {
   std::string file;        // job file
-  std::vector<int> cores;  // that the process is tied to; as many as it has threads if not given
+  std::vector<int> cores;  // that the process is tied to; none if a scheduler sees to that
   int parent = 0;          // process it must not outlive, 0 = none
 };
 

@@ -111,9 +111,9 @@ class Summary {
     const double ms = (*result)["ms_per_step"]["median"];
     row["cost_ms"] = question.costOfRun ? ms * (*result)["steps"].get<double>() : ms;
     for (const char* name :
-         {"ms_per_step", "wall_ms_per_step", "real_time_factor", "steps", "dt", "particles",
-          "threads", "load_ms", "peak_memory_mb", "stages", "limiters", "repeats_agree",
-          "state_hash", "modules", "processor", "side_by_side"}) {
+         {"ms_per_step", "first_run_ms_per_step", "wall_ms_per_step", "real_time_factor", "steps",
+          "dt", "particles", "threads", "load_ms", "peak_memory_mb", "stages", "limiters",
+          "repeats_agree", "state_hash", "modules", "processor", "side_by_side"}) {
       if (result->contains(name)) row[name] = (*result)[name];
     }
     return row;
@@ -203,8 +203,9 @@ class Summary {
                                   " " + reference["message"].get<std::string>());
     }
     for (const Published& p : question.published) {
-      const auto ours = std::ranges::find_if(
-          timed, [&](const Point& t) { return p.method.empty() || fits(p.method, t.method); });
+      const std::string& against = p.method.empty() ? question.methods.front().name : p.method;
+      const auto ours =
+          std::ranges::find_if(timed, [&](const Point& t) { return fits(against, t.method); });
       if (ours != timed.end()) json["sentences"].push_back(beside(p.name, p.ms, *ours));
     }
   }

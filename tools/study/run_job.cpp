@@ -9,6 +9,7 @@
 #include <cmath>
 #include <ctime>
 #include <iostream>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "core/scene.h"
@@ -26,6 +27,7 @@ using Clock = std::chrono::steady_clock;
 // Together the timed runs last at least so long, that short ones are not lost in the clock's noise.
 constexpr double leastTimedMs = 200;
 constexpr int mostRuns = 100;
+constexpr double inTime = 0.8;  // part of the timeout that is planned with
 
 double millisecondsSince(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
@@ -109,6 +111,7 @@ class Runner {
     result_["dt"] = scene.dt();
     result_["steps"] = steps_;
     if (!runOnce(scene)) return endEarly(scene);
+    result_["first_run_ms_per_step"] = timeOfRun() / static_cast<double>(steps_);
     if (!(spread(scene) <= blownUp)) {
       result_["status"] = "diverged";
       return fail("at the end a particle was more than 10,000 times the body's size away");
@@ -176,8 +179,11 @@ class Runner {
       stagesBefore_.push_back(scene.profiler().stage(s).totalMs());
     const auto begin = Clock::now();
     double timed = 0;
-    if (job_.repeats == 1) take();  // nobody asks how long a reference run takes
+    const double left = inTime * 1e3 * job_.timeout - millisecondsSince(start_);
+    // nobody asks how long a reference run takes, and a run that may not end in time is not made
+    if (job_.repeats == 1 || wallMs_ > left) take();
     while (job_.repeats > 1 && static_cast<int>(means_.size()) < mostRuns) {
+      if (wallMs_ > inTime * 1e3 * job_.timeout - millisecondsSince(start_)) break;
       const bool enough =
           static_cast<int>(means_.size()) + 1 >= job_.repeats && timed >= leastTimedMs;
       const bool late = millisecondsSince(begin) > 1e3 * job_.timeBudget;
@@ -190,10 +196,14 @@ class Runner {
     }
   }
 
+  // Of all steps of the run just made (ms).
+  [[nodiscard]] double timeOfRun() const {
+    return std::accumulate(perStep_.begin(), perStep_.end(), 0.0);
+  }
+
   // Counts the run just made; its time (ms).
   double take() {
-    double sum = 0;
-    for (const double ms : perStep_) sum += ms;
+    const double sum = timeOfRun();
     const auto steps = static_cast<double>(std::max<std::size_t>(perStep_.size(), 1));
     means_.push_back(sum / steps);
     walls_.push_back(wallMs_ / steps);
@@ -229,6 +239,7 @@ class Runner {
   }
 
   const Job& job_;
+  const Clock::time_point start_ = Clock::now();
   Json result_;
   std::uint64_t steps_ = 0;
   std::vector<double> perStep_, all_;  // ms, of the last run and of all timed ones

@@ -193,6 +193,8 @@
       if (value.problem) notes.push(`${name}: ${value.problem}`);
     }
     if (row.repeats_agree === false) notes.push('repeated runs did not end with the same bits');
+    if (row.ms_per_step && row.ms_per_step.runs === 1) notes.push('timed once: no spread');
+    if (row.processor && row.processor !== summary.machine.processor) notes.push(`timed on ${row.processor}`);
     if (row.side_by_side > 1) notes.push(`timed beside ${row.side_by_side - 1} other`);
     for (const [name, count] of Object.entries(row.limiters || {})) notes.push(`${name} ${count}×`);
     return notes.join('; ');
