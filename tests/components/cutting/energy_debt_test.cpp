@@ -79,6 +79,23 @@ TEST(EnergyDebt, takesNoMoreThanTheMotionHolds) {
   EXPECT_LT(debt.paid() - paid, 1e-20 * paid);
 }
 
+TEST(EnergyDebt, asksNothingOfWhatIsHeld) {
+  MovingBlock body;
+  std::vector<Index> all(static_cast<std::size_t>(body.system().size()));
+  std::iota(all.begin(), all.end(), 0);
+  const auto start = body.momenta(body.before);
+  EnergyDebt debt;
+  debt.owe(0.3 * start.energy, all);
+  debt.pay(body.system(), body.cut->particles());
+  const auto end = body.momenta(body.system().v());
+  EXPECT_FALSE(body.system().projectors().empty());
+  EXPECT_EQ(debt.owed(), 0);
+  EXPECT_NEAR(start.energy - end.energy, debt.paid(), 1e-12 * start.energy);
+  EXPECT_LT((end.linear - start.linear).norm(), 1e-13 * start.linear.norm());
+  for (const ParticleProjector& p : body.system().projectors())
+    EXPECT_EQ(body.system().v()[p.particle], Vec3::Zero());
+}
+
 TEST(EnergyDebt, findsNothingInOneParticleAndLittleInTwo) {
   for (const Index count : {1, 2}) {
     MovingBlock body;

@@ -299,6 +299,54 @@ TEST(CutBody, isAsBeforeOnceRestoredAndCutsTheSameAgain) {
   }
 }
 
+// A mapping that is asked for the same again does not compute it again; whatever has changed, a
+// cut or the body made whole included, it must.
+TEST(CutBody, itsNodesAreWhereItsShapeSaysAlsoWhenAskedAgain) {
+  CutSceneOptions options;
+  CutScene body(options);
+  std::vector<Vec3> x = moved(body.particles->rest(), affine(), Vec3::Zero());
+  const auto expectNow = [&](const char* when) {
+    const Vec3Span out = body.nodes->x(), velocities = body.nodes->v();
+    std::vector<Vec3> fresh(out.size());
+    body.mapping->shape().apply(x, fresh);
+    for (int again = 0; again < 2; ++again) {
+      body.mapping->apply(x, out);
+      body.mapping->applyJ(x, velocities);
+      EXPECT_TRUE(std::ranges::equal(out, fresh)) << when;
+      EXPECT_TRUE(std::ranges::equal(velocities, fresh)) << when;
+    }
+  };
+  expectNow("at first");
+  x[5].y() += 1e-3;
+  expectNow("one particle moved");
+  cutTwice(body, options.n);
+  expectNow("cut");
+  body.scene.reset();
+  body.makeWhole(options.n);
+  expectNow("whole again");
+}
+
+// The stiffness of a volume constraint is what it is now, to the bit, however it came there.
+TEST(CutBody, itsVolumeConstraintFollowsChanges) {
+  const auto forcesWith = [](const std::string& constraint,
+                             const std::vector<std::string>& changes) {
+    CutSceneOptions options;
+    options.more = constraint;
+    CutScene body(options);
+    for (const std::string& value : changes) {
+      const auto problem = body.scene.setAttribute("/volume.stiffness", value);
+      EXPECT_FALSE(problem) << *problem;
+    }
+    return body.forces(moved(body.particles->rest(), affine(), Vec3::Zero()));
+  };
+  const std::string soft = R"(<VolumeConstraint name="volume" stiffness="0.3"/>)";
+  const auto none = forcesWith("", {});
+  EXPECT_NE(forcesWith(soft, {}), none);
+  EXPECT_EQ(forcesWith(R"(<VolumeConstraint name="volume" stiffness="1e4"/>)", {"0.3"}),
+            forcesWith(soft, {}));
+  EXPECT_EQ(forcesWith(soft, {"1e4", "0.7", "0"}), none);
+}
+
 // What is cut is an open sheet on top of the particles, not the surface that encloses them.
 TEST(CutBody, followsCutsOfASheetOnTop) {
   CutSceneOptions options;
