@@ -66,7 +66,7 @@ class CutBarrier {
   virtual void block(const Vec3& from, ConstVec3Span to, std::span<char> blocked) const = 0;
 };
 
-// What the force fields of a body keep of energy, as it was before and is after a change of links.
+// By how much a change of links has changed the energy that the force fields of a body store.
 struct LinkEnergy {
   double added = 0;              // J, at the positions of the moment
   std::vector<Index> particles;  // whose links have changed, ascending

@@ -17,14 +17,12 @@ Mat3 symmetric(std::span<const double> s) {
 
 void TractionForceField::configure() {
   if (traction.isSet() == (stress.isSet() || stressGradient.isSet())) {
-    error("attr-required", "needs one of 'traction' and 'stress'");
+    error("attr-required", "needs one of 'traction' and 'stress' (or 'stressGradient')");
   } else if (stress.isSet() && !stress.source() && stress->size() != 6) {
     error(stress, "value-count",
           "has " + std::to_string(stress->size()) + " values, expected 6: xx yy zz xy yz zx");
-  } else if (stressGradient.isSet() && stressGradient->size() != 18) {
-    error(stressGradient, "value-count",
-          "has " + std::to_string(stressGradient->size()) +
-              " values, expected 18: xx yy zz xy yz zx, derived by x, by y and by z");
+  } else if (stressOrigin.isSet() && !stressGradient.isSet()) {
+    error(stressOrigin, "attr-unused", "has no meaning without 'stressGradient'");
   }
 }
 
@@ -37,6 +35,12 @@ void TractionForceField::bind() {
       return;
     }
     tensor_ = symmetric(s);
+  }
+  if (stressGradient.isSet() && stressGradient->size() != 18) {
+    error(stressGradient, "value-count",
+          "has " + std::to_string(stressGradient->size()) +
+              " values, expected 18: xx yy zz xy yz zx, derived by x, by y and by z");
+    return;
   }
   for (std::size_t k = 0; k < 3; ++k) {
     slope_[k] = stressGradient.isSet() ? symmetric(std::span(*stressGradient).subspan(6 * k, 6))

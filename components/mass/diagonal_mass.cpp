@@ -33,7 +33,8 @@ void DiagonalMass::bind() {
     error("mass-volume",
           "knows " + std::to_string(mass_.size()) + " volumes for " + std::to_string(particles) +
               " particles",
-          "volumes come from a ParticleSampler, a RegularGridTopology or 'volume'");
+          "volumes come from a ParticleSampler, a RegularGridTopology, a MeshTopology's elements "
+          "or 'volume'");
     return;
   }
   const double all = std::accumulate(mass_.begin(), mass_.end(), 0.0);

@@ -103,7 +103,8 @@ bool MLSForceField::readVolumes() {
     error("mls-volume",
           "knows " + std::to_string(volumes_.size()) + " volumes for " + std::to_string(particles) +
               " particles",
-          "volumes come from a ParticleSampler, a RegularGridTopology or 'volume'");
+          "volumes come from a ParticleSampler, a RegularGridTopology, a MeshTopology's elements "
+          "or 'volume'");
     return false;
   }
   const auto bad = std::ranges::find_if(volumes_, [](double v) { return !(v > 0); });

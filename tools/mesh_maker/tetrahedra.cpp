@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <fstream>
 #include <iomanip>
+#include <iostream>
 #include <numbers>
 #include <ostream>
 #include <sstream>
@@ -110,6 +111,18 @@ double smallestDihedral(const TetrahedralMesh& mesh) {
   return smallest * 180 / std::numbers::pi;
 }
 
+// While it lives, what the library tells on standard output goes nowhere.
+class Quiet {
+ public:
+  Quiet() : before_(std::cout.rdbuf(nullptr)) {}
+  ~Quiet() { std::cout.rdbuf(before_), std::cout.clear(); }
+  Quiet(const Quiet&) = delete;
+  Quiet& operator=(const Quiet&) = delete;
+
+ private:
+  std::streambuf* before_;
+};
+
 void requireVolumes(const TetrahedralMesh& mesh) {
   for (const Tetrahedron& t : mesh.tetrahedra) {
     const Vec3& a = mesh.positions[at(t[0])];
@@ -130,6 +143,7 @@ TetrahedralMesh fillSurface(const std::filesystem::path& obj, double size) {
   // netgen's tolerances want lengths of about one
   const double scale = meanEdge(mesh);
 
+  const Quiet quiet;
   nglib::Ng_Init();
   nglib::Ng_Mesh* filled = nglib::Ng_NewMesh();
   for (const Vec3& x : mesh.positions) {

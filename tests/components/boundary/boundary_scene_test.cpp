@@ -131,6 +131,7 @@ TEST(Boundary, mistakesAreNamed) {
       {"<TractionForceField/>", "one of 'traction' and 'stress'"},
       {"<TractionForceField stress='1 2 3'/>", "expected 6"},
       {"<TractionForceField stressGradient='1 2 3'/>", "expected 18"},
+      {"<TractionForceField traction='1 2 3' stressOrigin='1 2 3'/>", "no meaning without"},
       {"<GripForceField indices='0' stiffness='1' keyTimes='0 1' displacements='0 0 0'/>",
        "1 displacements for 2 key times"},
       {"<GripForceField indices='0' stiffness='1' keyTimes='1 0' displacements='0 0 0 1 1 1'/>",
