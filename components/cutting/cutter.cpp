@@ -217,8 +217,21 @@ void Cutter::findNear(const SheetWindow& window) {
   sortUnique(nearVertices_);
 }
 
+bool Cutter::isInside(Index v) const {
+  return complex_.dimension() == 3 && std::ranges::none_of(complex_.star(v), [&](Index t) {
+           for (int i = 0; i < complex_.corners(); ++i)
+             if (complex_.simplex(t)[at(i)] != v && complex_.across({t, i}) < 0) return true;
+           return false;
+         });
+}
+
+const CutTolerance& Cutter::tolerance(Index v) const {
+  return isInside(v) ? options_.inside : options_.surface;
+}
+
 void Cutter::tag(Index v, const SheetWindow& window) {
-  const double off = options_.snap * spacing_, beyond = options_.overshoot * spacing_;
+  const CutTolerance& allowed = tolerance(v);
+  const double off = allowed.snap * spacing_, beyond = allowed.overshoot * spacing_;
   const Vec3& x = complex_.vertex(v);
   if (window.nearest(x, off, window.triangles.size()).distance > off) return;
   onSheet_[at(v)] = step_;
@@ -269,8 +282,9 @@ bool Cutter::isUncutAt(Index v, Index w) const {
 }
 
 // Edges along the sheet that leave the swept part where it has not been cut yet.
-void Cutter::findBorderEdges(const SheetWindow& window, double reach, std::vector<Split>& splits) {
-  const double least = leastSplit * spacing_;
+void Cutter::findBorderEdges(const SheetWindow& window, bool exact, std::vector<Split>& splits) {
+  const double least = leastSplit * spacing_, inner = options_.inside.lag * spacing_,
+               outer = exact ? least : options_.surface.lag * spacing_;
   for (std::size_t k = 0; k < nearVertices_.size(); ++k) {
     const Index v = nearVertices_[k];
     if (!onSwept(v)) continue;
@@ -280,6 +294,8 @@ void Cutter::findBorderEdges(const SheetWindow& window, double reach, std::vecto
         if (!onSheet(w) || onSwept(w)) continue;
         const double where = window.exit(complex_.vertex(v), complex_.vertex(w));
         const double length = (complex_.vertex(w) - complex_.vertex(v)).norm();
+        // an edge that leads inwards has a say in where the incision ends on the outside
+        const double reach = isInside(v) && isInside(w) ? inner : outer;
         if (where * length <= reach || (1 - where) * length < least) continue;
         if (isUncutAt(v, w)) splits.push_back({{v, w}, where, length});
       }
@@ -302,17 +318,34 @@ Index Cutter::split(Edge edge, double weight) {
 // Where everything has been cut before, nothing is split: cutting twice is cutting once.
 void Cutter::conform(const SheetWindow& window, bool first, bool last) {
   // the two ends of a cut are made exact, what lies between is passed over by the next strips
-  const double reach = (first || last ? leastSplit : options_.frontSnap) * spacing_;
+  const bool exact = first || last;
   std::vector<Split> crossed, border;
   const bool news = findCrossedEdges(window, crossed);
   if (!news && !last) {
-    findBorderEdges(window, reach, border);
+    findBorderEdges(window, exact, border);
     if (border.empty()) return;
     border.clear();
   }
   for (const Split& s : crossed) tag(split(s.edge, s.weight), window);
-  findBorderEdges(window, reach, border);
-  for (const Split& s : border) onSwept_[at(split(s.edge, s.weight))] = step_;
+  findBorderEdges(window, exact, border);
+  for (const Split& s : border)
+    if (!isCrowded(s)) onSwept_[at(split(s.edge, s.weight))] = step_;
+}
+
+// Is there a vertex that is cut already right beside the split, which would leave a needle? Then
+// the border goes by way of that one; the surface is split all the same, as one sees it.
+bool Cutter::isCrowded(const Split& s) const {
+  const auto [p, q] = s.edge;
+  if (!isInside(p) || !isInside(q)) return false;
+  const Vec3 x = (1 - s.weight) * complex_.vertex(p) + s.weight * complex_.vertex(q);
+  return std::ranges::any_of(complex_.star(p), [&](Index t) {
+    const auto& simplex = complex_.simplex(t);
+    if (std::find(simplex.begin(), simplex.end(), q) == simplex.end()) return false;
+    return std::ranges::any_of(simplex, [&](Index v) {
+      return v >= 0 && v != p && v != q && onSwept(v) &&
+             (complex_.vertex(v) - x).norm() < leastSplit * spacing_;
+    });
+  });
 }
 
 void Cutter::splitStuck(std::span<const Edge> edges) {

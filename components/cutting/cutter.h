@@ -3,7 +3,7 @@
 // swept.
 //
 // Each new strip of the sheet does four things near itself:
-//   1. vertices within `snap` of the sheet are taken as lying on it; they are not moved.
+//   1. vertices near the sheet (`CutTolerance`) are taken as lying on it; they are not moved.
 //   2. edges that cross the sheet, with no end on it, are split where they cross. The sheet is
 //      prolonged by a skirt for this: elements into which it only reaches are divided as well.
 //   3. edges along the sheet that leave the part which has been swept are split at its border:
@@ -36,16 +36,20 @@
 
 namespace stroma {
 
+// In units of the spacing. Smaller ones follow the blade closer and leave worse triangles.
+struct CutTolerance {
+  double snap;       // how far a vertex may lie off the sheet and still be taken as on it
+  double overshoot;  // how far beyond the border of the swept part
+  double lag;        // how far the cut may end short of that border
+};
+
 struct CutterOptions {
   bool subdivide = true;
-  // In units of the spacing. How far a vertex may lie off the sheet and still be taken as on it;
-  // how far beyond the swept part's border; how far the cut may end short of the front while it
-  // goes on (its two ends are made exact); width of the skirt (about the longest edge). Smaller
-  // snapping follows the blade closer and leaves worse triangles.
-  double snap = 0.15;
-  double overshoot = 0.1;
-  double frontSnap = 0.25;
-  double skirt = 1.5;
+  // Where the body's outside is cut, which one sees (the ends of a cut have no lag there), and
+  // within.
+  CutTolerance surface{.snap = 0.15, .overshoot = 0.1, .lag = 0.25};
+  CutTolerance inside{.snap = 0.22, .overshoot = 0.2, .lag = 0.4};
+  double skirt = 1.5;           // width of the skirt, about the longest edge [spacing]
   double smallestPiece = 0.05;  // volume below which nothing is cut free [spacing^3]
 };
 
@@ -88,11 +92,14 @@ class Cutter {
   [[nodiscard]] std::uint64_t stripKey(Index row, bool first, bool last) const;
   void cutStrip(Index row, bool last, bool replay, std::vector<RestTriangle>& sheetTriangles);
   void findNear(const SheetWindow& window);
+  [[nodiscard]] bool isInside(Index v) const;
+  [[nodiscard]] const CutTolerance& tolerance(Index v) const;
   void tag(Index v, const SheetWindow& window);
   void addVertex(Index v);
   void conform(const SheetWindow& window, bool first, bool last);
   [[nodiscard]] bool findCrossedEdges(const SheetWindow& window, std::vector<Split>& splits) const;
-  void findBorderEdges(const SheetWindow& window, double reach, std::vector<Split>& splits);
+  void findBorderEdges(const SheetWindow& window, bool exact, std::vector<Split>& splits);
+  [[nodiscard]] bool isCrowded(const Split& split) const;
   [[nodiscard]] bool isUncutAt(Index v, Index w) const;
   Index split(Edge edge, double weight);
   void splitStuck(std::span<const Edge> edges);

@@ -14,6 +14,13 @@ namespace stroma {
 // start, after a change of a run-time attribute and every `estimateEvery` steps, more often while
 // it changes quickly, so that the number of sub-steps follows stiffening tissue; `currentSubsteps`
 // shows it. Forces shown or written are those at the beginning of the last sub-step.
+//
+// Tissue may stiffen within a step by more than the estimate knows. The change of the accelerations
+// over the way made shows it: |M^-1 (f - f_last)| / |x - x_last| is at most the largest eigenvalue
+// of M^-1 K in between, and comes near to it as soon as a mode begins to grow. Then the estimate is
+// made anew there; if it asks for more sub-steps the step begins again with these (counted as a
+// limiter), a few times at most; so does one of long moves that has gained energy. Sub-steps that
+// the scene fixes are not looked after.
 class EulerExplicitSolver final : public Integrator {
  public:
   Attribute<bool> symplectic{this, "symplectic", true,
@@ -61,15 +68,26 @@ class EulerExplicitSolver final : public Integrator {
  private:
   void estimate(double time, double dt, int iterations);
   void reestimate(const StepContext& step);
-  void substep(double time, double h);
+  void substep(double time, double h, bool watched);
+  [[nodiscard]] bool makeSubsteps(const StepContext& step, bool watched);
+  void watch(double h);
+  [[nodiscard]] bool hasGained(const StepContext& step);
+  [[nodiscard]] bool needsMoreSubsteps(const StepContext& step);
 
   Limiter capped_{this, "maxSubsteps",
                   "estimates that asked for more than `maxSubsteps` sub-steps"};
+  Limiter repeated_{this, "repeated",
+                    "steps begun again with more sub-steps because the tissue had stiffened"};
   bool changed_ = false, cut_ = false;  // since the last estimate
+  int needed_ = 0;                      // sub-steps that a repeated step has needed, decaying
   int interval_ = 1;                    // steps between estimates now
   std::uint64_t nextEstimate_ = 2;      // step before which the next one is made
   StabilityEstimate stability_;
-  std::vector<Vec3> heldForce_;  // forces on held particles, put back after the update
+  bool tooStiff_ = false;                     // what the last sub-step has shown
+  double spacing_ = 0;                        // m, of neighbouring particles
+  double lastSpeed_ = 0;                      // m v^2 of the sub-step before
+  std::vector<Vec3> startX_, startV_, last_;  // of the step; accelerations of the last sub-step
+  std::vector<Vec3> heldForce_;               // forces on held particles, put back after the update
 };
 
 }  // namespace stroma

@@ -24,9 +24,11 @@ void EulerImplicitSolver::start() {
   const auto n = static_cast<std::size_t>(s.size());
   b_.resize(n);
   dv_.assign(n, Vec3::Zero());
+  for (auto* a : {&x0_, &v0_}) a->resize(n);
   if (newtonIterations > 1) {
-    for (auto* a : {&x0_, &v0_, &moved_, &damping_}) a->resize(n);
+    for (auto* a : {&moved_, &damping_}) a->resize(n);
   }
+  spacing_ = typicalDistance(s.rest());
   s.project(s.v());
 }
 
@@ -44,11 +46,16 @@ void EulerImplicitSolver::restore(StateReader& reader) {
 }
 
 void EulerImplicitSolver::integrate(const StepContext& step) {
+  h_ = step.dt;
+  time_ = step.time + step.dt;
+  std::ranges::copy(system().x(), x0_.begin());
+  std::ranges::copy(system().v(), v0_.begin());
   if (newtonIterations == 1) {
     linearStep(step);
   } else {
-    newtonStep(step);
+    newtonStep();
   }
+  keepEnergy();
   if (vdamping > 0) flat(system().v()) *= std::exp(-step.dt * vdamping);
 }
 
@@ -79,12 +86,8 @@ void EulerImplicitSolver::linearStep(const StepContext& step) {
   lastResidual.set(solution.residual);
 }
 
-void EulerImplicitSolver::newtonStep(const StepContext& step) {
+void EulerImplicitSolver::newtonStep() {
   System& s = system();
-  h_ = step.dt;
-  time_ = step.time + step.dt;
-  std::ranges::copy(s.x(), x0_.begin());
-  std::ranges::copy(s.v(), v0_.begin());
   lastLinearIterations.set(0);
   // forces that depend on velocities show in the derivative; without any, D costs nothing
   s.linearize({x0_, v0_, time_});
@@ -102,6 +105,55 @@ void EulerImplicitSolver::newtonStep(const StepContext& step) {
   std::ranges::copy(moved_, s.x().begin());
   lastNewtonIterations.set(result.iterations);
   lastResidual.set(start > 0 ? result.residual / start : 0);
+}
+
+// With the trapezoidal rule velocities and moves differ; it is for accuracy, and left alone.
+void EulerImplicitSolver::keepEnergy() {
+  if (trapezoidalScheme) return;
+  const double bound = carefulMove * spacing_;
+  const bool careful = std::ranges::any_of(
+      system().v(), [&](const Vec3& v) { return !(h_ * h_ * v.squaredNorm() <= bound * bound); });
+  if (careful) shorten();
+}
+
+void EulerImplicitSolver::shorten() {
+  System& s = system();
+  const double before = s.kineticEnergy(v0_) + s.potentialEnergy({x0_, v0_, time_});
+  // what rounding may add
+  const double most = before + 1e-12 * std::abs(before);
+  double part = 1;
+  if (energyWith(part) <= most) return;
+  ++shortened_;
+  full_.assign(s.v().begin(), s.v().end());
+  base_ = Vec3::Zero();
+  if (s.projectors().empty()) {
+    double mass = 0;
+    for (std::size_t i = 0; i < v0_.size(); ++i) {
+      base_ += s.mass()[i] * v0_[i];
+      mass += s.mass()[i];
+    }
+    base_ /= mass;
+  }
+  constexpr int mostTrials = 40;
+  for (int k = 0; k < mostTrials; ++k) {
+    part = k + 1 < mostTrials ? part / 2 : 0;
+    const double now = energyWith(part);
+    if (now <= most) return;
+  }
+}
+
+// The energy of the step when only this part of the velocities over the base is taken; the state is
+// left there.
+double EulerImplicitSolver::energyWith(double part) {
+  System& s = system();
+  const Vec3Span x = s.x(), v = s.v();
+  parallelFor(s.size(), [&](Index k) {
+    const auto i = static_cast<std::size_t>(k);
+    if (part < 1) v[i] = base_ + part * (full_[i] - base_);
+    if (part < 1) x[i] = x0_[i] + h_ * v[i];
+  });
+  const double energy = s.kineticEnergy(v) + s.potentialEnergy({x, v, time_});
+  return std::isfinite(energy) ? energy : std::numeric_limits<double>::infinity();
 }
 
 void EulerImplicitSolver::moveTo(ConstVec3Span v) {

@@ -18,6 +18,7 @@ enum ExitCode : int {
   sceneInvalid = 2,  // a missing mesh included
   diverged = 3,
   fileTrouble = 4,  // output or checkpoint files
+  checkFailed = 5,  // the run misses a criterion of the scene
 };
 
 // --set, --plugins, --data and --lenient.
@@ -49,6 +50,7 @@ void addPlan(CLI::App& app, int& exitCode);
 void addComponents(CLI::App& app, int& exitCode);
 void addSchema(CLI::App& app, int& exitCode);
 void addStudy(CLI::App& app, int& exitCode);
+void addStability(CLI::App& app, int& exitCode);
 void addDescribe(CLI::App& app, int& exitCode);
 
 }  // namespace stroma::cli

@@ -20,7 +20,7 @@ constexpr const char* closing =
     "  stroma components MLSForceField\n"
     "`stroma COMMAND --help` tells more.\n\n"
     "Exit codes: 0 done, 1 wrong usage, 2 scene invalid, 3 diverged, 4 trouble with output or\n"
-    "checkpoint files, 130 interrupted.\n"
+    "checkpoint files, 5 a criterion of the scene is missed, 130 interrupted.\n"
     "STROMA_PLUGIN_PATH: folders with further modules, separated by colons.";
 
 }  // namespace
@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
   cli::addCheck(app, exitCode);
   cli::addPlan(app, exitCode);
   cli::addStudy(app, exitCode);
+  cli::addStability(app, exitCode);
   cli::addComponents(app, exitCode);
   cli::addSchema(app, exitCode);
   cli::addDescribe(app, exitCode);

@@ -199,12 +199,21 @@ class Run {
     }
     if (scene.diagnostics().errorCount() > 0) std::cerr << scene.diagnostics().text();
     report_.collectFrom(scene);
+    for (const auto& [path, check] : report_.checks) {
+      if (check.passed) continue;
+      std::cerr << format({Severity::error,
+                           "check-failed",
+                           path + ": " + check.criterion + " is " + check.message,
+                           check.where,
+                           {}});
+    }
     (options_.json ? std::cerr : std::cout) << (options_.profile ? scene.profiler().text() : "");
     std::cout << (options_.json ? report_.json() : report_.text()) << std::flush;
     if (scene.divergence()) return diverged;
     if (fileTrouble_ || outputFailed(scene)) return fileTrouble;
     if (scene.diagnostics().errorCount() > 0) return sceneInvalid;
-    return report_.interrupted ? 128 + interruptSignal() : static_cast<int>(done);
+    if (report_.interrupted) return 128 + interruptSignal();
+    return report_.passed() ? done : checkFailed;
   }
 
   const Options& options_;
@@ -250,6 +259,7 @@ void addRun(CLI::App& app, int& exitCode) {
   command->footer(
       "--steps and --time count from the start of the scene, also after --resume.\n"
       "An interrupt (Ctrl-C) finishes the step, closes the files and prints the summary.\n"
+      "A scene may hold criteria (StabilityCheck): a run that misses one ends with exit code 5.\n"
       "A run that diverges leaves its last good positions and velocities in "
       "OUT/last_good.checkpoint,\n"
       "to look at: resuming it unchanged diverges again.\n"

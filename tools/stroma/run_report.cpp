@@ -3,10 +3,10 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <set>
 
-#include "core/interfaces/observer.h"
 #include "core/interfaces/topology_modifier.h"
 #include "core/json.h"
 #include "core/parallel.h"
@@ -71,11 +71,18 @@ void RunReport::collectFrom(Scene& from) {
       const bool isFree = taken.insert(name).second;
       values.emplace_back(isFree ? name : component.path() + "." + name, value);
     }
+    for (CheckResult& check : observer->checks()) {
+      checks.emplace_back(component.path(), std::move(check));
+    }
     for (const auto& file : observer->files()) files.push_back(file.string());
   });
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   peakMemoryMb = static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+bool RunReport::passed() const {
+  return std::ranges::all_of(checks, [](const auto& check) { return check.second.passed; });
 }
 
 double RunReport::perStep(double ms) const {
@@ -103,6 +110,12 @@ std::string RunReport::text() const {
   rows.clear();
   for (const auto& [name, count] : limiters) rows.emplace_back(name, std::to_string(count));
   text += table("limiters that acted, and how often", rows);
+  rows.clear();
+  for (const auto& [path, check] : checks) {
+    rows.emplace_back(path + "." + check.criterion,
+                      (check.passed ? "passed  " : "FAILED  ") + check.message);
+  }
+  text += table("criteria, at worst", rows);
   if (!files.empty()) text += "files written\n";
   for (const std::string& file : files) text += "  " + file + "\n";
   return text;
@@ -133,6 +146,16 @@ std::string RunReport::json() const {
   json.member("state_hash", stateHash);
   object("monitors", monitors);
   for (const auto& [name, value] : cuts) json.member(name, value);
+  if (!checks.empty()) {
+    json.key("checks").beginArray();
+    for (const auto& [path, check] : checks) {
+      json.beginObject().member("component", path).member("criterion", check.criterion);
+      json.member("passed", check.passed).member("measured", check.measured);
+      json.member("bound", check.bound).member("step", check.step);
+      json.endObject();
+    }
+    json.endArray();
+  }
   array("files", files);
   if (interrupted) json.member("interrupted", true);
   if (divergence) {

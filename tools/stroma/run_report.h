@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/interfaces/observer.h"
 #include "core/scene.h"
 
 namespace stroma::cli {
@@ -26,8 +27,9 @@ struct RunReport {
   std::vector<std::pair<std::string, std::uint64_t>> limiters;  // those that acted
   std::vector<std::pair<std::string, double>> monitors;         // last values
   std::vector<std::pair<std::string, double>>
-      cuts;                        // pieces, incision_length, ...: members of their own
-  std::vector<std::string> files;  // written
+      cuts;  // pieces, incision_length, ...: members of their own
+  std::vector<std::pair<std::string, CheckResult>> checks;  // with the component's path
+  std::vector<std::string> files;                           // written
   std::string stateHash;
   std::optional<Divergence> divergence;
   bool interrupted = false;
@@ -36,6 +38,8 @@ struct RunReport {
   void collectFrom(Scene& from);
   [[nodiscard]] std::string text() const;
   [[nodiscard]] std::string json() const;
+  // Whether all criteria are met.
+  [[nodiscard]] bool passed() const;
 
  private:
   [[nodiscard]] double perStep(double ms) const;

@@ -53,7 +53,7 @@ class StudyRun {
     }
     std::cerr << diagnostics.text();
     if (diagnostics.errorCount() > 0) return sceneInvalid;
-    const auto places = corePlaces();
+    const auto places = placesOnCores(options_.jobs, study_.threads);
     if (places.empty()) return wrongUsage;
     if (!makeFolders() || !writeScenes()) return fileTrouble;
     collect();
@@ -64,25 +64,6 @@ class StudyRun {
   }
 
  private:
-  // The cores of each job that runs beside others; none when there are too few.
-  std::vector<std::vector<int>> corePlaces() const {
-    const std::vector<int> cores = study::allowedCores();
-    const auto each = static_cast<std::size_t>(study_.threads);
-    const auto jobs = static_cast<std::size_t>(options_.jobs);
-    std::vector<std::vector<int>> places;
-    if (jobs * each > cores.size()) {
-      std::cerr << "stroma: " << jobs << " jobs of " << each << " thread" << (each > 1 ? "s" : "")
-                << " want " << jobs * each << " cores; there are " << cores.size() << "\n";
-      return places;
-    }
-    // from the last core on: the first one is where most systems do their own work
-    for (std::size_t j = 0; j < jobs; ++j) {
-      const auto end = cores.end() - static_cast<std::ptrdiff_t>(j * each);
-      places.emplace_back(end - static_cast<std::ptrdiff_t>(each), end);
-    }
-    return places;
-  }
-
   bool makeFolders() {
     bool hasReferences = false;
     for (const study::Variation& v : plan_) hasReferences |= v.isReference;
@@ -239,9 +220,7 @@ void addStudy(CLI::App& app, int& exitCode) {
   addRepeated(*command, "--data", options->data,
               "Folder to look for meshes and scenes in; may be repeated")
       ->option_text("DIR");
-  command->add_option("--one", options->one.file)->group("");
-  command->add_option("--cores", options->one.cores)->delimiter(',')->group("");
-  command->add_option("--parent", options->one.parent)->group("");
+  addOneJob(*command, options->one);
   command->footer(
       "DIR/report.html shows it all; results.csv and results.json are for other programs.\n"
       "A study that was stopped goes on where it was; what diverged or failed stays in the table,\n"
@@ -256,7 +235,7 @@ void addStudy(CLI::App& app, int& exitCode) {
       "  stroma study big.xml --slurm --out out/big && sbatch out/big/job.sbatch");
   command->callback([options, &exitCode] {
     if (!options->one.file.empty()) {
-      exitCode = runOne(options->one);
+      exitCode = runOne(options->one, study::runJob);
     } else if (options->study.empty()) {
       throw CLI::RequiredError("STUDY");
     } else {

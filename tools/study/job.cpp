@@ -11,11 +11,9 @@ namespace fs = std::filesystem;
 namespace {
 
 Json toJson(const Measure& measure) {
-  Json json{{"name", measure.name},
-            {"kind", static_cast<int>(measure.kind)},
-            {"path", measure.path},
-            {"column", measure.column},
-            {"topology", measure.topology}};
+  Json json{{"name", measure.name}, {"kind", static_cast<int>(measure.kind)},
+            {"path", measure.path}, {"column", measure.column},
+            {"axis", measure.axis}, {"topology", measure.topology}};
   Json points = Json::array();
   for (const Vec3& p : measure.points) points.push_back({p.x(), p.y(), p.z()});
   json["points"] = std::move(points);
@@ -28,6 +26,7 @@ Measure measureFrom(const Json& json) {
   measure.kind = static_cast<Measure::Kind>(json.at("kind").get<int>());
   measure.path = json.at("path");
   measure.column = json.at("column");
+  measure.axis = json.at("axis");
   measure.topology = json.at("topology");
   for (const Json& p : json.at("points")) measure.points.emplace_back(p.at(0), p.at(1), p.at(2));
   return measure;

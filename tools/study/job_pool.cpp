@@ -65,7 +65,7 @@ class Pool {
     fs::remove(job.result, failure);  // what is there later comes from this process
     if (!replaceFile(file, toJson(job).dump(1))) return false;
     std::vector<std::string> words{options_.program.string(),
-                                   "study",
+                                   options_.command,
                                    "--one",
                                    file.string(),
                                    "--cores",

@@ -9,9 +9,11 @@
 namespace stroma::study {
 
 struct PoolOptions {
-  std::filesystem::path program;  // started as `program study --one JOB --cores LIST --parent PID`
-  std::filesystem::path folder;   // jobs/ and logs/ are written below it
+  // started as `program study --one JOB --cores LIST --parent PID`, or with another command
+  std::filesystem::path program;
+  std::filesystem::path folder;         // jobs/ and logs/ are written below it
   std::vector<std::vector<int>> cores;  // of each place; as many jobs run side by side
+  std::string command = "study";
 };
 
 struct PoolEvents {

@@ -1,57 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/study/measures.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
 
 #include "core/interfaces/mesh.h"
 #include "core/interfaces/observer.h"
-#include "core/path.h"
+#include "core/interfaces/projective_constraint.h"
 #include "core/triangle.h"
 #include "tools/study/field_fit.h"
+#include "tools/study/scene_target.h"
 
 namespace stroma::study {
 namespace {
-
-// What a path names: a component, or a numeric attribute of one or of a node.
-struct Target {
-  Component* component = nullptr;
-  AttributeBase* attribute = nullptr;
-};
-
-Target targetOf(Scene& scene, const std::string& path, bool isAttribute, std::string& problem,
-                std::string& hint) {
-  const PathParts parts = isAttribute ? splitPath(path) : PathParts{path, {}};
-  const PathTarget found = resolvePath(scene.root(), nullptr, parts.object, problem, hint);
-  if (!found) return {};
-  if (!isAttribute) {
-    if (!found.component) problem = stroma::quoted(path) + " is a node; a component is wanted";
-    return {found.component, nullptr};
-  }
-  AttributeOwner& owner =
-      found.component ? static_cast<AttributeOwner&>(*found.component) : *found.node;
-  AttributeBase* attribute = owner.attribute(parts.attribute);
-  if (!attribute) {
-    problem = owner.describe() + " has no attribute " + stroma::quoted(parts.attribute);
-    std::vector<std::string> names;
-    for (const AttributeBase* a : owner.attributes()) names.emplace_back(a->name());
-    hint = didYouMean(parts.attribute, names);
-  } else if (!attribute->number()) {
-    problem = stroma::quoted(path) + " is not a number but " + attribute->typeName();
-    attribute = nullptr;
-  }
-  return {found.component, attribute};
-}
-
-template <class T>
-T* componentAt(Scene& scene, const std::string& path, std::string& problem, std::string& hint) {
-  Component* component = targetOf(scene, path, false, problem, hint).component;
-  T* wanted = dynamic_cast<T*>(component);
-  if (component && !wanted) {
-    problem = stroma::quoted(path) + " is a " + component->type() + "; a " + std::string(T::role) +
-              " is wanted";
-  }
-  return wanted;
-}
 
 // Six times the volume inside the triangles.
 double sixfoldVolume(std::span<const Triangle> triangles, ConstVec3Span x) {
@@ -77,9 +39,11 @@ double valueOfMonitor(Observer& monitor, const std::string& column, std::string&
   return 0;
 }
 
+// Dead loads have an arbitrary constant in their energy: what counts is the difference to rest.
 double energyOf(Scene& scene) {
   double energy = 0;
   for (const auto& system : scene.systems()) {
+    energy -= system->potentialEnergy({system->rest(), system->v(), scene.time()});
     energy += system->potentialEnergy({system->x(), system->v(), scene.time()});
   }
   return energy;
@@ -98,6 +62,55 @@ double volumeRatio(const MechanicalState& state, const Mesh& mesh, std::string& 
   return rest != 0 ? sixfoldVolume(mesh.triangles(), state.x()) / rest : 0;
 }
 
+// Distance of nodes from their nearest others, the mean over some of them.
+double spacingOf(ConstVec3Span nodes) {
+  constexpr std::size_t asked = 64;
+  const std::size_t stride = std::max<std::size_t>(1, nodes.size() / asked);
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < nodes.size() && nodes.size() > 1; i += stride) {
+    double nearest2 = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+      if (j != i) nearest2 = std::min(nearest2, (nodes[j] - nodes[i]).squaredNorm());
+    }
+    sum += std::sqrt(nearest2);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+// A point beyond the nodes by more than a spacing: particles end half of one inside the body.
+std::string outsider(ConstVec3Span nodes, ConstVec3Span points) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& node : nodes) box.extend(node);
+  const Vec3 margin = Vec3::Constant(spacingOf(nodes));
+  const Eigen::AlignedBox3d allowed(box.min() - margin, box.max() + margin);
+  for (const Vec3& point : points) {
+    if (allowed.contains(point)) continue;
+    const auto text = [](const Vec3& p) { return ValueTraits<Vec3>::print(p); };
+    return "the point " + text(point) + " is outside the body, whose nodes lie between " +
+           text(box.min()) + " and " + text(box.max()) + " (m)";
+  }
+  return "";
+}
+
+// What a constraint takes from the bodies it holds: minus the force along its held directions.
+Vec3 reactionOf(Scene& scene, const ProjectiveConstraint& constraint) {
+  std::vector<ParticleProjector> held;
+  constraint.addProjectors(held);
+  Vec3 sum = Vec3::Zero();
+  for (const auto& system : scene.systems()) {
+    const Index offset = system->offsetOf(constraint.state());
+    if (offset < 0) continue;
+    std::vector<Vec3> f(system->x().size());
+    system->computeForce({system->x(), system->v(), scene.time()}, f);
+    for (const ParticleProjector& p : held) {
+      const Vec3& force = f[static_cast<std::size_t>(offset + p.particle)];
+      sum -= force - p.projector * force;
+    }
+  }
+  return sum;
+}
+
 Json fieldOf(const MechanicalState& state, ConstVec3Span points) {
   std::vector<Vec3> u(state.x().begin(), state.x().end());
   for (std::size_t i = 0; i < u.size(); ++i) u[i] -= state.rest()[i];
@@ -109,35 +122,6 @@ Json fieldOf(const MechanicalState& state, ConstVec3Span points) {
 }
 
 }  // namespace
-
-void checkMeasure(Scene& scene, const Measure& measure, Diagnostics& diagnostics) {
-  std::string problem, hint;
-  const auto report = [&](const SourceRange& at) {
-    if (problem.empty()) return;
-    diagnostics.error("measure", "Measure " + stroma::quoted(measure.name) + ": " + problem, at,
-                      hint);
-    problem.clear();
-    hint.clear();
-  };
-  switch (measure.kind) {
-    case Measure::Kind::monitor:
-      (void)componentAt<Observer>(scene, measure.path, problem, hint);
-      break;
-    case Measure::Kind::attribute:
-      (void)targetOf(scene, measure.path, true, problem, hint);
-      break;
-    case Measure::Kind::volume:
-      (void)componentAt<Mesh>(scene, measure.topology, problem, hint);
-      report(measure.topologyAt);
-      [[fallthrough]];
-    case Measure::Kind::field:
-      (void)componentAt<MechanicalState>(scene, measure.path, problem, hint);
-      break;
-    case Measure::Kind::energy:
-      break;
-  }
-  report(measure.pathAt);
-}
 
 Json evaluate(Scene& scene, const Measure& measure) {
   std::string problem, hint;
@@ -151,9 +135,17 @@ Json evaluate(Scene& scene, const Measure& measure) {
     if (target.attribute) value = *target.attribute->number();
   } else if (measure.kind == Measure::Kind::energy) {
     value = energyOf(scene);
+  } else if (measure.kind == Measure::Kind::reaction) {
+    if (const auto* c = componentAt<ProjectiveConstraint>(scene, measure.path, problem, hint)) {
+      const Vec3 reaction = reactionOf(scene, *c);
+      value = measure.axis == 0 ? reaction.norm()
+                                : reaction[static_cast<Eigen::Index>(measure.axis) - 1];
+    }
   } else {
     const auto* state = componentAt<MechanicalState>(scene, measure.path, problem, hint);
     if (state && measure.kind == Measure::Kind::field) {
+      problem = outsider(state->rest(), measure.points);
+      if (!problem.empty()) return {{"problem", problem}};
       return {{"field", fieldOf(*state, measure.points)}};
     }
     const Mesh* mesh = state ? componentAt<Mesh>(scene, measure.topology, problem, hint) : nullptr;

@@ -15,7 +15,10 @@ void checkMeasure(Scene& scene, const Measure& measure, Diagnostics& diagnostics
 //   monitor    what a Monitor saw last
 //   attribute  any attribute that is a number
 //   field      displacement of a state's nodes from rest, fitted at common points (field_fit.h)
-//   energy     potential energy of everything the solvers govern (J), loads and gravity included
+//   energy     potential energy of everything the solvers govern (J), loads and gravity included,
+//              over that of the bodies at rest under the same loads
+//   reaction   force of a constraint on what it holds (N), its size or its part along an axis;
+//              where several hold a particle, each has what is along its own directions
 //   volume     inside a closed surface, over that at rest
 [[nodiscard]] Json evaluate(Scene& scene, const Measure& measure);
 

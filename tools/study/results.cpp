@@ -26,6 +26,14 @@ double fieldError(const Json& field, const Json& reference, Measure::Norm norm) 
   return norm == Measure::Norm::l2 ? std::sqrt(difference2 / size2) : difference / size;
 }
 
+Json flat(const std::vector<Vec3>& vectors) {
+  Json numbers = Json::array();
+  for (const Vec3& v : vectors) {
+    for (const double part : v) numbers.push_back(part);
+  }
+  return numbers;
+}
+
 Json finiteOrNull(double number) { return std::isfinite(number) ? Json(number) : Json(); }
 
 class Summary {
@@ -66,21 +74,26 @@ class Summary {
   static Json describeMeasures(const Question& question) {
     Json all = Json::array();
     for (const Measure& m : question.measures) {
-      const bool isKnown =
-          std::ranges::any_of(all, [&](const Json& one) { return one["name"] == m.name; });
-      if (isKnown) continue;
-      constexpr std::array<const char*, 5> kinds{"monitor", "attribute", "field", "energy",
-                                                 "volume"};
+      constexpr std::array<const char*, 6> kinds{"monitor", "attribute", "field",
+                                                 "energy",  "volume",    "reaction"};
       Json one{{"name", m.name}, {"kind", kinds[static_cast<std::size_t>(m.kind)]}};
       if (m.kind == Measure::Kind::field) {
         one["norm"] = m.norm == Measure::Norm::l2 ? "l2" : "max";
       }
-      one["reference"] = m.reference              ? Json(*m.reference)
-                         : m.referenceRun.empty() ? Json()
-                                                  : Json("@" + m.referenceRun);
-      if (m.scale > 0) one["scale"] = m.scale;
+      one["reference"] = m.reference                ? Json(m.reference->value)
+                         : !m.referenceRun.empty()  ? Json("@" + m.referenceRun)
+                         : m.referenceField.empty() ? Json()
+                                                    : Json("displacements");
+      if (m.scale) one["scale"] = m.scale->value;
       one["source"] = m.source;
-      all.push_back(std::move(one));
+      one["methods"] = m.methods;
+      const auto known =
+          std::ranges::find_if(all, [&](const Json& other) { return other["name"] == m.name; });
+      if (known == all.end()) {
+        all.push_back(std::move(one));
+      } else {  // the same question to methods that are compared with something else
+        (*known)["others"].push_back(std::move(one));
+      }
     }
     return all;
   }
@@ -134,7 +147,9 @@ class Summary {
     if (measured.contains("problem")) return out["problem"] = measured["problem"], out;
     Json reference;
     if (measure.reference) {
-      reference = {{"value", *measure.reference}};
+      reference = {{"value", measure.reference->value}};
+    } else if (!measure.referenceField.empty()) {
+      reference["field"] = flat(measure.referenceField);
     } else if (!measure.referenceRun.empty()) {
       reference = referenceValue(measure, variation.question);
       if (reference.contains("problem")) return out["problem"] = reference["problem"], out;
@@ -147,7 +162,7 @@ class Summary {
     }
     const double wanted = reference["value"];
     // minus is too little, whichever way the value points
-    const double size = measure.scale > 0 ? std::copysign(measure.scale, wanted) : wanted;
+    const double size = measure.scale ? std::copysign(measure.scale->value, wanted) : wanted;
     const double off = (measured["value"].get<double>() - wanted) / size;
     out["reference"] = wanted;
     out["error"] = finiteOrNull(std::abs(off));

@@ -42,22 +42,26 @@ struct Axis {
 };
 
 struct Measure {
-  enum class Kind { monitor, attribute, field, energy, volume };
+  enum class Kind { monitor, attribute, field, energy, volume, reaction };
   enum class Norm { l2, max };
   std::string name;
   SourceRange at;
   Kind kind = Kind::monitor;
-  std::string path;  // of the monitor, the attribute, or the state
+  std::string path;  // of the monitor, the attribute, the state, or the constraint
   SourceRange pathAt;
   std::string column;    // of a monitor with several values
+  std::size_t axis = 0;  // of a reaction: 0 its size, 1 to 3 its part along x, y or z
   std::string topology;  // of a volume: whose triangles close it
   SourceRange topologyAt;
   std::vector<Vec3> points;  // of a field (m, rest positions)
+  SourceRange pointsAt;
   Norm norm = Norm::l2;
-  // What it is compared with: a number (SI), a reference run, or nothing.
-  std::optional<double> reference;
+  // What it is compared with: a number, for a field displacements (m), one a point, a reference
+  // run, or nothing. Errors are relative to the scale instead of the reference, where given.
+  std::optional<Quantity> reference, scale;
+  SourceRange referenceAt, scaleAt;
+  std::vector<Vec3> referenceField;
   std::string referenceRun;
-  double scale = 0;    // errors are relative to this instead of the reference, where given
   std::string source;  // where the reference comes from
   // Taken only of methods and reference runs that fit() one; empty = of all. So methods with other
   // components can have the same measure.

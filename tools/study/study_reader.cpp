@@ -89,6 +89,27 @@ class Reader {
     }
   }
 
+  // Measures may share a name where no method has both.
+  void checkMeasureNames(const Question& question) {
+    for (std::size_t i = 0; i < question.measures.size(); ++i) {
+      const Measure& m = question.measures[i];
+      const auto isOf = [](const Measure& one, const Choice& method) {
+        return one.methods.empty() || fitsAny(method.name, one.methods);
+      };
+      const auto clashes = [&](const Measure& earlier) {
+        return earlier.name == m.name && std::ranges::any_of(question.methods, [&](const auto& c) {
+                 return isOf(earlier, c) && isOf(m, c);
+               });
+      };
+      if (m.name.empty() || std::ranges::none_of(std::span(question.measures).first(i), clashes)) {
+        continue;
+      }
+      diagnostics_.error("name-repeated",
+                         "there are two of the name " + stroma::quoted(m.name) + ": Measure", m.at,
+                         "give each its own, or other methods");
+    }
+  }
+
   void readQuestion(ElementReader& reader, const SceneElement& element, Question& question) {
     question.at = element.at;
     question.name = reader.text("name");
@@ -145,14 +166,11 @@ class Reader {
     if (question.measures.empty()) {
       diagnostics_.error("measure-missing", "a question needs a Measure", element.at);
     }
-    std::vector<Measure> ofAll;  // those of some methods only may share a name
-    std::ranges::copy_if(question.measures, std::back_inserter(ofAll),
-                         [](const Measure& m) { return m.methods.empty(); });
-    checkNames(ofAll, "Measure");
     checkNames(question.references, "ReferenceRun");
     checkNames(question.methods, "Method");
     checkNames(question.axes, "Axis");
     if (question.methods.empty()) question.methods.push_back({.name = "scene", .at = element.at});
+    checkMeasureNames(question);
     const Axis* sized = nullptr;
     for (const Axis& axis : question.axes) {
       const bool has =

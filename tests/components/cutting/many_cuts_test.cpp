@@ -35,9 +35,9 @@ TEST(ManyCuts, ofWholeOrgansLeaveFewSlivers) {
         "smallest angle %.3f deg\n",
         name, count, 100 * slivers[slivers.size() / 2], 100 * slivers[slivers.size() * 99 / 100],
         100 * slivers.back(), angle);
-    EXPECT_LT(slivers[slivers.size() / 2], 0.01);
-    EXPECT_LT(slivers[slivers.size() * 95 / 100], 0.02);
-    EXPECT_LT(slivers.back(), 0.05);
+    EXPECT_LT(slivers[slivers.size() / 2], 0.005);
+    EXPECT_LT(slivers[slivers.size() * 95 / 100], 0.01);
+    EXPECT_LT(slivers.back(), 0.02);
   }
 }
 

@@ -179,5 +179,35 @@ TEST(EulerExplicit, masslessParticleIsNamed) {
   EXPECT_NE(s.text().find("/body, particle 0 has none"), std::string::npos) << s.text();
 }
 
+// A spring that is a thousand times stiffer a step later: the estimate at the start knows nothing
+// of it.
+TEST(EulerExplicit, aStepInWhichTissueStiffensIsMadeAgain) {
+  Loaded s = load(dtNode(0.1,
+                         "<EulerExplicitSolver/><MechanicalObject position='0 0 0  1 0 0' "
+                         "velocity='30 0 0'/><UniformMass vertexMass='0.5'/>"
+                         "<StiffeningSprings k='20' c='4e3'/>"));
+  System& system = s.system();
+  const auto energy = [&] {
+    return system.kineticEnergy(system.v()) +
+           system.potentialEnergy({system.x(), system.v(), s.scene->time()});
+  };
+  const double start = energy();
+  double most = 0;
+  for (int step = 0; step < 200; ++step) {
+    ASSERT_TRUE(s.scene->step()) << "step " << step;
+    most = std::max(most, energy() / start);
+  }
+  std::printf("energy at most %.4f of that at the start, %llu steps made again\n", most,
+              static_cast<unsigned long long>(limiter(s.find<EulerExplicitSolver>(), "repeated")));
+  EXPECT_LT(most, 1.1);
+  EXPECT_GT(limiter(s.find<EulerExplicitSolver>(), "repeated"), 0u);
+}
+
+TEST(EulerExplicit, aLoadThatSetsInIsNoStiffness) {
+  Loaded s = load(oscillator(0.02, "<EulerExplicitSolver/><ConstantForceField forces='50 0 0'/>"));
+  s.run(100);
+  EXPECT_EQ(limiter(s.find<EulerExplicitSolver>(), "repeated"), 0u);
+}
+
 }  // namespace
 }  // namespace stroma::test

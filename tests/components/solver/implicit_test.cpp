@@ -178,5 +178,49 @@ TEST(EulerImplicit, missingLinearSolverAndMassAreErrors) {
   EXPECT_NE(noMass.text().find("mass-zero"), std::string::npos) << noMass.text();
 }
 
+// Two particles on a spring, one of them held, drawn out so far that the spring has stiffened a
+// hundredfold: a linear step from there overshoots by far.
+std::string overdrawn(const std::string& attributes) {
+  return dtNode(0.05, "<EulerImplicitSolver " + attributes + "/>" + tightCg +
+                          "<MechanicalObject position='0 0 0  -3 0 0' rest_position='0 0 0  1 0 "
+                          "0'/><UniformMass vertexMass='0.01'/><Chain k='300'/>"
+                          "<FixedProjectiveConstraint indices='0'/>");
+}
+
+TEST(EulerImplicit, aLinearStepThatWouldAddEnergyIsShortened) {
+  for (const double careful : {0.1, 1e9}) {
+    Loaded s = load(overdrawn("carefulMove='" + std::to_string(careful) + "'"));
+    System& system = s.system();
+    system.x()[1] = {1e-3, 1e-4, 0};  // pressed together: the way out is not the tangent's
+    system.v()[1] = {40, 0, 0};
+    const auto energy = [&] {
+      return system.kineticEnergy(system.v()) +
+             system.potentialEnergy({system.x(), system.v(), s.scene->time()});
+    };
+    double least = energy(), rise = 0;
+    for (int step = 0; step < 100; ++step) {
+      ASSERT_TRUE(s.scene->step());
+      rise = std::max(rise, (energy() - least) / least);
+      least = std::min(least, energy());
+    }
+    std::printf(
+        "careful %g: energy rises by %.2e of the least, %llu steps shortened\n", careful, rise,
+        static_cast<unsigned long long>(limiter(s.find<EulerImplicitSolver>(), "shortened")));
+    if (careful < 1) {
+      EXPECT_LT(rise, 1e-2);
+      EXPECT_GT(limiter(s.find<EulerImplicitSolver>(), "shortened"), 0u);
+    } else {
+      EXPECT_EQ(limiter(s.find<EulerImplicitSolver>(), "shortened"), 0u);
+    }
+  }
+}
+
+TEST(EulerImplicit, ordinaryStepsAreNotShortened) {
+  Loaded s = load(hangingChain("<EulerImplicitSolver/>" + tightCg,
+                               "<FixedProjectiveConstraint indices='0'/>", 1e-3));
+  s.run(300);
+  EXPECT_EQ(limiter(s.find<EulerImplicitSolver>(), "shortened"), 0u);
+}
+
 }  // namespace
 }  // namespace stroma::test

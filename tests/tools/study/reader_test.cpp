@@ -62,7 +62,7 @@ TEST(StudyReader, aStudyMayBeItsOneQuestion) {
   ASSERT_EQ(study.questions.size(), 1u);
   EXPECT_EQ(study.repeats, 7);
   const Question& question = study.questions.front();
-  EXPECT_EQ(question.measures.front().reference, -0.002);
+  EXPECT_EQ(question.measures.front().reference->value, -0.002);
   EXPECT_EQ(question.errorBudgets, std::vector<double>{0.05});
   EXPECT_EQ(question.msBudgets, std::vector<double>{2});
   EXPECT_EQ(question.published.front().ms, 18);
@@ -85,6 +85,27 @@ TEST(StudyReader, aGridHasItsPointsInTheBox) {
   ASSERT_EQ(points.size(), 6u);
   EXPECT_EQ(points.front(), Vec3(0, 1, 0));
   EXPECT_EQ(points.back(), Vec3(2, 1, 4));
+}
+
+TEST(StudyReader, aFieldMayBeComparedWithDisplacements) {
+  const Study study = readText(
+      "<Study title='T' scene='a.xml'><Measure name='m' state='/s' points='0 0 0  1 0 0' "
+      "reference='0 0 1  0 0 2 mm'/></Study>");
+  const Measure& measure = study.questions.front().measures.front();
+  ASSERT_EQ(measure.referenceField.size(), 2u);
+  EXPECT_EQ(measure.referenceField.back(), Vec3(0, 0, 0.002));
+  EXPECT_FALSE(measure.reference);
+}
+
+TEST(StudyReader, aReactionNamesItsConstraintAndPart) {
+  const Study study = readText(
+      "<Study title='T' scene='a.xml'><Measure name='m' of='reaction' constraint='/c' "
+      "component='z' reference='3 mN'/></Study>");
+  const Measure& measure = study.questions.front().measures.front();
+  EXPECT_EQ(measure.kind, Measure::Kind::reaction);
+  EXPECT_EQ(measure.path, "/c");
+  EXPECT_EQ(measure.axis, 3u);
+  EXPECT_EQ(measure.reference->value, 0.003);
 }
 
 }  // namespace

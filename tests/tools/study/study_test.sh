@@ -91,6 +91,22 @@ sed -i 's/v 1 0 0/v 2 0 0/' scenes/mesh.obj
 expect 0 "with another mesh" study mesh.xml --out mesh
 holds "  it is run" grep -q "1/1" err.txt
 
+# measures that share a name: each method is compared with its own reference
+cat > shared.xml << 'END'
+<Study title="Shared" scene="scenes/fall.xml" repeats="2">
+  <Measure name="height" monitor="/ball/height" reference="-1250 mm" source="by hand" method="free"/>
+  <Measure name="height" monitor="/ball/height" reference="-2.5 m" source="by head" method="half"/>
+  <Measure name="height off" monitor="/ball/height" reference="0" scale="1 m" method="free"/>
+  <Measure name="outside" state="/ball/particles" points="0 9 0" reference="0 1 0" method="free"/>
+  <Method name="free"/>
+  <Method name="half"/>
+</Study>
+END
+expect 0 "measures that share a name" study shared.xml --out shared
+holds "  are compared with their own references" bash -c 'grep -q "^,free,.*,done,,0.00[0-9]*," shared/results.csv && grep -q "^,half,.*,done,,0.4[0-9]*," shared/results.csv'
+holds "  and both are told" bash -c 'grep -q "by hand" shared/results.json && grep -q "by head" shared/results.json'
+holds "a point outside the body is told" grep -q "the point 0 9 0 is outside the body" shared/results.json
+
 # stopping: the time of a variation is mostly its repeats, so there is time to be hit
 sed 's/repeats="2"/repeats="20"/' fall.xml > slow.xml
 study slow.xml --out slow_whole > /dev/null 2>&1

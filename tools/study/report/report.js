@@ -7,7 +7,10 @@
   const css = name => style.getPropertyValue(name).trim();
   // Okabe and Ito's colours, which stay apart for everybody; every method has its own marker, too
   const palette = ['#0072b2', '#e69f00', '#009e73', '#d55e00', '#cc79a7', '#56b4e9', '#8c7a00', css('--quiet')];
+  // from the ninth method on, colours come back with other markers
   const markers = ['circle', 'rect', 'triangle', 'rectRot', 'star', 'crossRot', 'rectRounded', 'cross'];
+  const colourOf = m => palette[m % palette.length];
+  const markerOf = m => markers[(m + 3 * Math.floor(m / palette.length)) % markers.length];
   Chart.defaults.color = css('--ink');
   Chart.defaults.borderColor = css('--line');
   Chart.defaults.font.family = 'system-ui, "DejaVu Sans", sans-serif';
@@ -56,8 +59,8 @@
       const data = rows.map(row => ({...point(row), row})).filter(p => p.x > 0 && p.y > 0);
       if (joined) data.sort((a, b) => a.row.h - b.row.h);
       return {
-        label: series.name, data, showLine: joined, borderColor: palette[m % palette.length],
-        backgroundColor: palette[m % palette.length], pointStyle: markers[m % markers.length], pointRadius: 6,
+        label: series.name, data, showLine: joined, borderColor: colourOf(m),
+        backgroundColor: colourOf(m), pointStyle: markerOf(m), pointRadius: 6,
         pointBorderWidth: 2, pointHoverRadius: 8, borderWidth: 1.5, series,
       };
     });
@@ -249,10 +252,12 @@
       make('td', p.source, tr, 'text');
     }
     make('p', 'Values are in SI units. Bold: nobody is better in both error and time.', parent, 'note');
-    for (const m of question.measures) {
+    for (const m of question.measures.flatMap(one => [one, ...(one.others || [])])) {
       const against = m.reference === null ? 'not compared'
-        : typeof m.reference === 'number' ? `compared with ${number(m.reference)}` : `compared with the run ${m.reference}`;
-      make('p', `${m.name}: ${against}${m.source ? ` (${m.source})` : ''}.`, parent, 'note');
+        : typeof m.reference === 'number' ? `compared with ${number(m.reference)}`
+        : m.reference === 'displacements' ? 'compared with given displacements' : `compared with the run ${m.reference}`;
+      const whose = m.methods.length > 0 ? `, of ${m.methods.join('; ')}` : '';
+      make('p', `${m.name}${whose}: ${against}${m.source ? ` (${m.source})` : ''}.`, parent, 'note');
     }
     for (const r of question.references) {
       const ran = r.status === 'done' ? `${number(r.particles)} particles, ${number(r.steps)} steps` : `${r.status} ${r.message}`;
