@@ -46,7 +46,7 @@ struct CutTolerance {
 struct CutterOptions {
   bool subdivide = true;
   // Where the body's outside is cut, which one sees (the ends of a cut have no lag there), and
-  // within.
+  // within, where wider ones keep the walls' triangles well shaped.
   CutTolerance surface{.snap = 0.15, .overshoot = 0.1, .lag = 0.25};
   CutTolerance inside{.snap = 0.22, .overshoot = 0.2, .lag = 0.4};
   double skirt = 1.5;           // width of the skirt, about the longest edge [spacing]

@@ -8,7 +8,8 @@ PLUGIN(cutting, "0.1.0", "Apache-2.0", "Cutting along blades.")
   registry.add<stroma::CuttingTopologyModifier>("CuttingTopologyModifier")
       .doc("Cuts a body along the edges of tools; incisions have walls, pieces come apart.")
       .domain(
-          "Follows the blade to about 0.15 edge lengths of the mesh that is cut. A blade that "
+          "Follows the blade to about 0.15 edge lengths of the mesh that is cut at its surface, to "
+          "0.4 within. A blade that "
           "moves along its own edge cuts nothing.")
       .example("scenes/cornea/cut.xml");
   registry.add<stroma::CuttingResistance>("CuttingResistance")
