@@ -42,7 +42,7 @@ namespace stroma {
 
 inline constexpr std::uint32_t pluginMagic = 0x5354524d;  // "STRM"
 // Raised when a class that plugins derive from changes.
-inline constexpr std::uint16_t coreAbi = 3;
+inline constexpr std::uint16_t coreAbi = 4;
 
 extern "C" struct PluginDescriptor {
   std::uint32_t magic;
