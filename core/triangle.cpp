@@ -41,4 +41,16 @@ TrianglePoint nearestOnTriangle(const Corners& t, const Vec3& p) {
   return at(t, p, {1 - v - w, v, w});
 }
 
+double enclosedVolume(ConstVec3Span positions, std::span<const Triangle> triangles) {
+  if (positions.empty()) return 0;
+  // taken about a point of the mesh, so that a body far from the origin loses no digits
+  const Vec3& origin = positions.front();
+  double sixfold = 0;
+  for (const Triangle& t : triangles) {
+    const Corners c = cornersOf(t, positions);
+    sixfold += (c.a - origin).dot((c.b - origin).cross(c.c - origin));
+  }
+  return sixfold / 6;
+}
+
 }  // namespace stroma

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// One triangle: its normal, and the point of it that is nearest to another point.
+// One triangle: its normal, and the point of it that is nearest to another point. Many: the volume
+// that they enclose.
 #pragma once
+
+#include <span>
 
 #include "core/types.h"
 
@@ -28,5 +31,8 @@ struct TrianglePoint {
 
 // The point of the triangle nearest to p, by the seven regions round it (Ericson 2004, 5.1.5).
 [[nodiscard]] TrianglePoint nearestOnTriangle(const Corners& t, const Vec3& p);
+
+// Volume inside a closed surface (m^3), by the divergence theorem; negative when turned inside out.
+[[nodiscard]] double enclosedVolume(ConstVec3Span positions, std::span<const Triangle> triangles);
 
 }  // namespace stroma

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "components/sampling/random.h"
+#include "core/random.h"
 
 namespace stroma {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "components/sampling/blue_noise.h"
 #include "components/sampling/point_grid.h"
-#include "components/sampling/random.h"
 #include "components/sampling/surface_check.h"
 #include "core/parallel.h"
+#include "core/random.h"
 
 namespace stroma {
 namespace {

@@ -21,16 +21,6 @@ std::vector<Edge> rimEdges(TriangleSpan triangles) {
 
 }  // namespace
 
-double enclosedVolume(ConstVec3Span x, TriangleSpan triangles) {
-  if (x.empty()) return 0;
-  // taken about a point of the mesh, so that a body far from the origin loses no digits
-  const Vec3 origin = x.front();
-  double sixfold = 0;
-  for (const Triangle& t : triangles)
-    sixfold += (x[t[0]] - origin).dot((x[t[1]] - origin).cross(x[t[2]] - origin));
-  return sixfold / 6;
-}
-
 double surfaceArea(ConstVec3Span x, TriangleSpan triangles) {
   double area = 0;
   for (const Triangle& t : triangles) area += vectorArea(x, t).norm();

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures of triangle surfaces. A surface is (positions in metres, triangles of position indices),
 // triangles counter-clockwise seen from outside. Functions here expect valid indices and finite
-// positions; surface_check.h says whether a mesh from a file has them.
+// positions; surface_check.h says whether a mesh from a file has them. The volume inside is
+// enclosedVolume in core/triangle.h.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "core/types.h"
+#include "core/triangle.h"
 
 namespace stroma {
 
@@ -22,9 +23,6 @@ using TriangleSpan = std::span<const Triangle>;
 [[nodiscard]] inline Vec3 vectorArea(ConstVec3Span x, const Triangle& t) {
   return 0.5 * (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
 }
-
-// Volume inside a closed surface (m^3), by the divergence theorem; negative when turned inside out.
-[[nodiscard]] double enclosedVolume(ConstVec3Span positions, TriangleSpan triangles);
 
 [[nodiscard]] double surfaceArea(ConstVec3Span positions, TriangleSpan triangles);
 

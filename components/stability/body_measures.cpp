@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/triangle.h"
-
 namespace stroma {
 namespace {
 
@@ -96,17 +94,6 @@ std::size_t countInverted(std::span<const Hexahedron> elements, ConstVec3Span x,
     }
     return false;
   }));
-}
-
-double sixfoldVolumeInside(std::span<const Triangle> triangles, ConstVec3Span x) {
-  // about the middle of the points: far from the origin the products would cancel
-  const Vec3 middle = mean(x);
-  double sum = 0;
-  for (const Triangle& t : triangles) {
-    const Corners c = cornersOf(t, x);
-    sum += (c.a - middle).cross(c.b - middle).dot(c.c - middle);
-  }
-  return sum;
 }
 
 double shareOf(ConstVec3Span pattern, ConstVec3Span x, ConstVec3Span rest) {

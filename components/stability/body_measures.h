@@ -34,9 +34,6 @@ void addMomenta(ConstVec3Span x, ConstVec3Span v, std::span<const double> mass, 
 [[nodiscard]] std::size_t countInverted(std::span<const Hexahedron> elements, ConstVec3Span x,
                                         ConstVec3Span rest);
 
-// Six times the volume inside a closed surface (m^3).
-[[nodiscard]] double sixfoldVolumeInside(std::span<const Triangle> triangles, ConstVec3Span x);
-
 // How much of the pattern is in the displacements: <u, p> / <p, p>. 1 for u = p.
 [[nodiscard]] double shareOf(ConstVec3Span pattern, ConstVec3Span x, ConstVec3Span rest);
 

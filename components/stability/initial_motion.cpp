@@ -3,28 +3,15 @@
 
 #include <cmath>
 
+#include "core/random.h"
+
 namespace stroma {
 namespace {
 
-// Uniform in [0, 1); splitmix64 (Steele, Lea, Flood 2014).
-class Uniform {
- public:
-  explicit Uniform(int seed) : bits_(static_cast<std::uint64_t>(seed)) {}
-  double operator()() {
-    bits_ += 0x9e3779b97f4a7c15ULL;
-    std::uint64_t z = bits_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-  }
-  Vec3 vector() {
-    const double x = (*this)(), y = (*this)();
-    return {x, y, (*this)()};
-  }
-
- private:
-  std::uint64_t bits_;
-};
+Vec3 randomVector(UniformRandom& random) {
+  const double x = random(), y = random();
+  return {x, y, random()};
+}
 
 }  // namespace
 
@@ -53,10 +40,10 @@ void InitialMotion::bind() {
   }
   const Mat3 F =
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(deformation->data());
-  Uniform random(seed);
+  UniformRandom random(static_cast<std::uint64_t>(*seed));
   std::vector<Vec3> x = rest, v(rest.size()), u(rest.size());
   for (std::size_t i = 0; i < x.size(); ++i) {
-    if (scramble) x[i] = low + random.vector().cwiseProduct(high - low);
+    if (scramble) x[i] = low + randomVector(random).cwiseProduct(high - low);
     x[i] = F * (x[i] - middle);
     const double angle = twist * (rest[i].x() - low.x());
     x[i] = middle + Eigen::AngleAxisd(angle, Vec3::UnitX()) * x[i];
@@ -66,7 +53,7 @@ void InitialMotion::bind() {
       const bool odd = (i % nx + i / nx % ny + i / (nx * ny)) % 2 == 1;
       x[i] += Vec3::Constant(odd ? -checkerboard : *checkerboard);
     }
-    if (noise > 0) x[i] += noise * (2 * random.vector() - Vec3::Ones());
+    if (noise > 0) x[i] += noise * (2 * randomVector(random) - Vec3::Ones());
     v[i] = *linearVelocity + angularVelocity->cross(x[i] - middle);
     u[i] = x[i] - rest[i];
   }

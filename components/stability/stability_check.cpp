@@ -8,6 +8,7 @@
 #include "core/interfaces/integrator.h"
 #include "core/scene.h"
 #include "core/snapshot.h"
+#include "core/triangle.h"
 
 namespace stroma {
 namespace {
@@ -128,7 +129,7 @@ void StabilityCheck::checkLinks() {
     error(indices, "index-range", "has particle " + std::to_string(i) + "; there are " + points);
     return;
   }
-  if (surface) restVolume_ = sixfoldVolumeInside(surface->triangles(), states_.front()->rest());
+  if (surface) restVolume_ = enclosedVolume(states_.front()->rest(), surface->triangles());
   if (surface && !(restVolume_ > 0)) error(surface, "check-mesh", "encloses no volume");
 }
 
@@ -214,8 +215,7 @@ void StabilityCheck::stop() {
   if (stopped_) return;
   stopped_ = true;
   const std::uint64_t step = scene().stepCount();
-  if (!begun_) begin(scene().time());
-  if (step != lastLook_) look(scene().time(), step);
+  if (begun_ && step != lastLook_) look(scene().time(), step);
   record(When::end, step);
 }
 
@@ -276,7 +276,7 @@ double StabilityCheck::shapeError() const {
 }
 
 double StabilityCheck::volumeRatio() const {
-  return sixfoldVolumeInside(surface->triangles(), states_.front()->x()) / restVolume_;
+  return enclosedVolume(states_.front()->x(), surface->triangles()) / restVolume_;
 }
 
 double StabilityCheck::valueNow() const {
@@ -319,9 +319,8 @@ std::vector<std::pair<std::string, double>> StabilityCheck::lastValues() const {
   std::vector<std::pair<std::string, double>> values;
   bool all = true;
   for (const Criterion& c : criteria_) {
-    if (!c.seen) continue;
-    values.emplace_back(name() + "." + std::string(c.bound->name()), worstOf(c));
-    all = all && holds(c);
+    if (c.seen) values.emplace_back(name() + "." + std::string(c.bound->name()), worstOf(c));
+    all = all && (c.seen ? holds(c) : !stopped_);
   }
   values.emplace_back(name() + ".passed", all ? 1 : 0);
   return values;
@@ -330,6 +329,16 @@ std::vector<std::pair<std::string, double>> StabilityCheck::lastValues() const {
 std::vector<CheckResult> StabilityCheck::checks() const {
   std::vector<CheckResult> results;
   for (const Criterion& c : criteria_) {
+    const SourceRange place = c.bound->where() ? c.bound->where() : where();
+    if (!c.seen && stopped_) {
+      results.push_back({.criterion = std::string(c.bound->name()),
+                         .passed = false,
+                         .measured = std::numeric_limits<double>::quiet_NaN(),
+                         .bound = *c.bound,
+                         .step = scene().stepCount(),
+                         .message = "not known: no step was made after 'from'",
+                         .where = place});
+    }
     if (!c.seen) continue;
     const double worst = worstOf(c),
                  time = scene().root().time + static_cast<double>(c.step) * scene().dt();
@@ -344,7 +353,7 @@ std::vector<CheckResult> StabilityCheck::checks() const {
                        .message = rounded(worst) + unit + " " + at + "; bound " +
                                   (c.side == Side::most ? "at most " : "at least ") +
                                   rounded(*c.bound) + unit,
-                       .where = c.bound->where() ? c.bound->where() : where()});
+                       .where = place});
   }
   return results;
 }

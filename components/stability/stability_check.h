@@ -15,7 +15,8 @@ namespace stroma {
 
 // Criteria in numbers that a run has to meet. Each is an attribute that holds only where it is
 // given. The worst value of each is recorded with its step; a run that misses one ends as "check
-// failed". Criteria of the end hold at the end, or at every look from `settled` on.
+// failed". Criteria of the end hold at the end, or at every look from `settled` on. One that was
+// never looked at, because the run ended before `from`, is missed.
 //
 // It looks at all that the solvers govern, or at `state`. Lengths are relative to `size`, the
 // longest side of the bodies at rest. Energies count what loads, tools and cuts put in between

@@ -15,16 +15,6 @@
 namespace stroma::study {
 namespace {
 
-// Six times the volume inside the triangles.
-double sixfoldVolume(std::span<const Triangle> triangles, ConstVec3Span x) {
-  double volume = 0;
-  for (const Triangle& t : triangles) {
-    const Corners c = cornersOf(t, x);
-    volume += c.a.dot(c.b.cross(c.c));
-  }
-  return volume;
-}
-
 double valueOfMonitor(Observer& monitor, const std::string& column, std::string& problem) {
   const auto values = monitor.lastValues();
   std::string names;
@@ -57,9 +47,9 @@ double volumeRatio(const MechanicalState& state, const Mesh& mesh, std::string& 
       return 0;
     }
   }
-  const double rest = sixfoldVolume(mesh.triangles(), state.rest());
+  const double rest = enclosedVolume(state.rest(), mesh.triangles());
   if (rest == 0) problem = mesh.describe() + " encloses no volume";
-  return rest != 0 ? sixfoldVolume(mesh.triangles(), state.x()) / rest : 0;
+  return rest != 0 ? enclosedVolume(state.x(), mesh.triangles()) / rest : 0;
 }
 
 // Distance of nodes from their nearest others, the mean over some of them.

@@ -3,8 +3,8 @@
 
 #include "components/sampling/blue_noise.h"
 #include "components/sampling/point_grid.h"
-#include "components/sampling/random.h"
 #include "components/sampling/solid_scanner.h"
+#include "core/random.h"
 #include "tests/components/sampling/shapes.h"
 
 namespace stroma {

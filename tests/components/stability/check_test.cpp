@@ -124,6 +124,12 @@ TEST(StabilityCheck, criteriaOfTheEndHoldFromSettledOn) {
               1e-12);
 }
 
+TEST(StabilityCheck, whatWasNeverLookedAtIsMissed) {
+  const CheckResult result = Made("maxSpeed='1e9' from='1 h'").only();
+  EXPECT_FALSE(result.passed);
+  EXPECT_NE(result.message.find("'from'"), std::string::npos) << result.message;
+}
+
 TEST(StabilityCheck, valuesOfOtherComponents) {
   EXPECT_TRUE(Made("value='@/body/mover.currentSubsteps' maxValue='1' minValue='1'",
                    "<EulerExplicitSolver name='mover' substeps='1'/>", 3, springs)
