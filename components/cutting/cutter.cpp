@@ -27,6 +27,7 @@ Cutter::Cutter(SimplicialComplex& complex, double spacing, const CutterOptions& 
   grid_.reserve(room);
   onSheet_.reserve(room);
   onSwept_.reserve(room);
+  inside_.reserve(room);
   seen_.reserve(at(complex.simplexCount()) * 5 / 4 + 4096);
   seen_.assign(at(complex.simplexCount()), -1);
   for (Index v = 0; v < complex.vertexCount(); ++v) addVertex(v);
@@ -36,6 +37,16 @@ void Cutter::addVertex(Index v) {
   grid_.insert(v, complex_.vertex(v));
   onSheet_.push_back(-1);
   onSwept_.push_back(-1);
+  inside_.push_back(isWithin(v) ? 1 : 0);
+}
+
+bool Cutter::isWithin(Index v) const {
+  const auto isOutside = [&](Index t) {
+    for (int i = 0; i < complex_.corners(); ++i)
+      if (complex_.simplex(t)[at(i)] != v && complex_.across({t, i}) < 0) return true;
+    return false;
+  };
+  return complex_.dimension() == 3 && std::ranges::none_of(complex_.star(v), isOutside);
 }
 
 SurfaceEdit Cutter::advance(ConstVec3Span blade, double longest) {
@@ -217,20 +228,8 @@ void Cutter::findNear(const SheetWindow& window) {
   sortUnique(nearVertices_);
 }
 
-bool Cutter::isInside(Index v) const {
-  return complex_.dimension() == 3 && std::ranges::none_of(complex_.star(v), [&](Index t) {
-           for (int i = 0; i < complex_.corners(); ++i)
-             if (complex_.simplex(t)[at(i)] != v && complex_.across({t, i}) < 0) return true;
-           return false;
-         });
-}
-
-const CutTolerance& Cutter::tolerance(Index v) const {
-  return isInside(v) ? options_.inside : options_.surface;
-}
-
 void Cutter::tag(Index v, const SheetWindow& window) {
-  const CutTolerance& allowed = tolerance(v);
+  const CutTolerance& allowed = isInside(v) ? options_.inside : options_.surface;
   const double off = allowed.snap * spacing_, beyond = allowed.overshoot * spacing_;
   const Vec3& x = complex_.vertex(v);
   if (window.nearest(x, off, window.triangles.size()).distance > off) return;

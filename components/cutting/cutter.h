@@ -92,8 +92,7 @@ class Cutter {
   [[nodiscard]] std::uint64_t stripKey(Index row, bool first, bool last) const;
   void cutStrip(Index row, bool last, bool replay, std::vector<RestTriangle>& sheetTriangles);
   void findNear(const SheetWindow& window);
-  [[nodiscard]] bool isInside(Index v) const;
-  [[nodiscard]] const CutTolerance& tolerance(Index v) const;
+  [[nodiscard]] bool isWithin(Index v) const;
   void tag(Index v, const SheetWindow& window);
   void addVertex(Index v);
   void conform(const SheetWindow& window, bool first, bool last);
@@ -106,6 +105,7 @@ class Cutter {
   [[nodiscard]] std::vector<Facet> facetsToSeparate(const SheetWindow& window);
   [[nodiscard]] std::vector<Facet> facetsBetweenCentroids(const SheetWindow& strip);
   void keepTouched(std::vector<Facet>& facets);
+  [[nodiscard]] bool isInside(Index v) const { return inside_[static_cast<std::size_t>(v)] != 0; }
   // On the swept part: what has once been taken so stays so while the window passes over it.
   [[nodiscard]] bool onSwept(Index v) const {
     return onSwept_[static_cast<std::size_t>(v)] >= firstStep_;
@@ -129,6 +129,7 @@ class Cutter {
   Index step_ = 0, setIn_ = 0, firstStep_ = 0;  // steps: now, first of the cut, of the window
   std::vector<Index> onSheet_;  // per vertex: last step in which it was on the sheet or its skirt
   std::vector<Index> onSwept_;  // per vertex: last step in which it was on the swept part
+  std::vector<char> inside_;    // per vertex: not on the body's outside, which no cut changes
   std::vector<Index> seen_;     // per simplex: step in which it was found
   std::vector<Index> near_;     // simplices near the window
   std::vector<Index> nearVertices_;

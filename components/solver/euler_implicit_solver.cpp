@@ -147,11 +147,13 @@ void EulerImplicitSolver::shorten() {
 double EulerImplicitSolver::energyWith(double part) {
   System& s = system();
   const Vec3Span x = s.x(), v = s.v();
-  parallelFor(s.size(), [&](Index k) {
-    const auto i = static_cast<std::size_t>(k);
-    if (part < 1) v[i] = base_ + part * (full_[i] - base_);
-    if (part < 1) x[i] = x0_[i] + h_ * v[i];
-  });
+  if (part < 1) {
+    parallelFor(s.size(), [&](Index k) {
+      const auto i = static_cast<std::size_t>(k);
+      v[i] = base_ + part * (full_[i] - base_);
+      x[i] = x0_[i] + h_ * v[i];
+    });
+  }
   const double energy = s.kineticEnergy(v) + s.potentialEnergy({x, v, time_});
   return std::isfinite(energy) ? energy : std::numeric_limits<double>::infinity();
 }

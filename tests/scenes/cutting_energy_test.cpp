@@ -76,7 +76,11 @@ TEST_P(CuttingEnergy, growsByNoMoreThanTheToolsWork) {
     most = std::max(most, after);
     if (run.attribute("changes") == changesBefore) continue;
     ++changes;
-    added += std::max(0.0, run.attribute("addedEnergy") - addedBefore);
+    const double addedNow = std::max(0.0, run.attribute("addedEnergy") - addedBefore);
+    added += addedNow;
+    if (!resistances.empty()) {
+      EXPECT_LE(addedNow, parting() - parted);
+    }
     worst = std::max(worst, after - before - account.workSince(x) - (parting() - parted));
     parted = parting();
   }
