@@ -1,35 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Exit codes, files, checkpoints and interrupts of the command line.
-set -uo pipefail
 stroma=$1
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-
-# expect CODE TITLE COMMAND...: runs it; standard output and error are left in out.txt and err.txt
-expect() {
-  local code=$1 title=$2 got
-  shift 2
-  "$@" > out.txt 2> err.txt
-  got=$?
-  if (( got == code )); then
-    echo "ok    $title"
-  else
-    echo "FAIL  $title: exit code $got, not $code"
-    cat err.txt
-    failures=$(( failures + 1 ))
-  fi
-}
-
-# holds TITLE COMMAND...
-holds() {
-  local title=$1
-  shift
-  if "$@" > /dev/null; then echo "ok    $title"; else echo "FAIL  $title"; failures=$(( failures + 1 )); fi
-}
+# shellcheck source=tests/cli/expect.sh
+source "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
 
 same() { [[ -n $1 && $1 == "$2" ]]; }
 hash_in() { grep -o '"state_hash":"[0-9a-f]\{16\}"' "$1"; }
@@ -118,4 +92,4 @@ if command -v xmllint > /dev/null; then
   expect 3 "  refuses a misspelt one" xmllint --noout --schema stroma.xsd misspelt.xml
 fi
 
-(( failures == 0 )) || { echo "$failures failed"; exit 1; }
+report

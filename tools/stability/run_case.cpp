@@ -2,13 +2,12 @@
 #include "tools/stability/run_case.h"
 
 #include <chrono>
-#include <cmath>
 #include <iostream>
 
 #include "core/interfaces/observer.h"
 #include "core/parallel.h"
-#include "core/scene.h"
 #include "core/traverse.h"
+#include "tools/study/job_scene.h"
 #include "tools/study/picture.h"
 
 namespace stroma::stability {
@@ -16,24 +15,6 @@ namespace {
 
 using study::Json;
 using Clock = std::chrono::steady_clock;
-
-std::string firstError(const Diagnostics& diagnostics) {
-  for (const Diagnostic& d : diagnostics.all()) {
-    if (d.severity == Severity::error) return d.message;
-  }
-  return "the scene cannot be run";
-}
-
-Json limitersOf(Scene& scene) {
-  Json limiters = Json::object();
-  forEachComponent(scene.root(), [&](Component& component) {
-    for (const Limiter* limiter : component.limiters()) {
-      if (limiter->count() == 0) continue;
-      limiters[component.path() + "." + std::string(limiter->name())] = limiter->count();
-    }
-  });
-  return limiters;
-}
 
 // The criteria of all checks; those that were missed in a sentence.
 Json checksOf(Scene& scene, std::string& missed) {
@@ -57,8 +38,7 @@ Json checksOf(Scene& scene, std::string& missed) {
 }
 
 bool advance(Scene& scene) {
-  const auto steps =
-      static_cast<std::uint64_t>(std::ceil(scene.root().duration / scene.dt() - 1e-9));
+  const std::uint64_t steps = study::stepsIn(scene.root().duration, scene);
   while (scene.stepCount() < steps) {
     if (!scene.step() || scene.diagnostics().errorCount() > 0) return false;
   }
@@ -70,23 +50,17 @@ bool advance(Scene& scene) {
 Json runCase(const study::Job& job) {
   Json result = {{"id", job.id}, {"label", job.label}, {"status", "invalid"}, {"message", ""}};
   setThreadCount(job.threads);
-  SceneOptions options;
-  options.overrides = job.overrides;
-  options.pluginFolders.insert(options.pluginFolders.begin(), job.plugins.begin(),
-                               job.plugins.end());
-  options.dataFolders.assign(job.data.begin(), job.data.end());
-  options.writesOutput = false;
   const auto text = study::readFile(job.scene);
   if (!text) {
     result["message"] = "cannot read '" + job.scene + "'";
     return result;
   }
   const auto begin = Clock::now();
-  Scene scene(std::move(options));
+  Scene scene(study::optionsOf(job));
   const bool ready = scene.loadText(*text, job.base) && scene.initialise();
   std::cerr << scene.diagnostics().text();
   if (!ready) {
-    result["message"] = firstError(scene.diagnostics());
+    result["message"] = study::firstError(scene.diagnostics(), job.scene);
     return result;
   }
   const bool ended = advance(scene);
@@ -96,10 +70,10 @@ Json runCase(const study::Job& job) {
   result["particles"] = scene.particleCount();
   std::string missed;
   result["checks"] = checksOf(scene, missed);
-  result["limiters"] = limitersOf(scene);
+  result["limiters"] = study::limitersOf(scene);
   result["picture"] = study::pictureOf(scene);
   if (!ended && !scene.divergence()) {
-    result["message"] = firstError(scene.diagnostics());
+    result["message"] = study::firstError(scene.diagnostics(), job.scene);
   } else if (scene.divergence()) {
     result["status"] = "diverged";
     result["message"] = scene.divergence()->message;

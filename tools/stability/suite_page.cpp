@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/xml_text.h"
 #include "tools/stability/suite_results.h"
+#include "tools/study/report.h"
 
 namespace stroma::stability {
 namespace {
@@ -31,14 +32,6 @@ document.querySelectorAll('canvas').forEach(canvas => seen.observe(canvas));
 )js";
 
 std::string text(const Json& json, const char* key) { return xmlText(json.value(key, "")); }
-
-std::string inScript(const Json& json) {
-  std::string out;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
-    c == '<' ? out += "\\u003c" : out += c;
-  }
-  return out;
-}
 
 std::string limitersOf(const Json& cell) {
   std::string list;
@@ -144,7 +137,7 @@ std::optional<std::string> pageOf(const Json& summary, const Results& results,
   }
   html += "<footer>" + text(summary["machine"], "processor") + ", " +
           text(summary["machine"], "build") + "</footer>\n";
-  html += "<script type=\"application/json\" id=\"pictures\">" + inScript(pictures) +
+  html += "<script type=\"application/json\" id=\"pictures\">" + study::inScript(pictures) +
           "</script>\n<script>\n" + *picture + "</script>\n<script>" + script +
           "</script>\n</body>\n</html>\n";
   return html;

@@ -15,12 +15,6 @@ namespace {
 
 using study::Edit;
 
-std::string slug(std::string_view text) {
-  std::string out;
-  for (const unsigned char c : text) out += std::isalnum(c) && c < 128 ? static_cast<char>(c) : '-';
-  return out;
-}
-
 std::string nameOf(const SceneElement& element) {
   const SceneAttribute* name = element.find("name");
   return name ? name->value : element.tag;
@@ -133,7 +127,7 @@ class Planner {
     }
     for (const fs::path& folder : data_) job.data.push_back(fs::absolute(folder).string());
     job.label = label;
-    job.id = slug(one.name) + "--" + slug(method.name);
+    job.id = freeId(study::slug(one.name) + "--" + study::slug(method.name));
     job.base = base_;
     job.scene = fs::absolute(options_.out / "scenes" / (job.id + ".xml")).string();
     job.result = fs::absolute(options_.out / "results" / (job.id + ".json")).string();
@@ -141,6 +135,13 @@ class Planner {
     check(root, edits, job);
     root.attributes.push_back({"_run", commandFor(job), {}, {}});
     cell.sceneText = study::sceneText(root);
+  }
+
+  // Names that differ in what files cannot be called get numbers.
+  std::string freeId(const std::string& wanted) {
+    std::string id = wanted;
+    for (int k = 2; !ids_.insert(id).second; ++k) id = wanted + "-" + std::to_string(k);
+    return id;
   }
 
   // How somebody runs the scene by hand.
@@ -186,7 +187,7 @@ class Planner {
   std::vector<fs::path> data_;
   std::string base_;
   std::optional<SceneElement> scene_;
-  std::set<std::string> reported_;
+  std::set<std::string> reported_, ids_;
 };
 
 }  // namespace

@@ -15,13 +15,18 @@ CLI::Option* addRepeated(CLI::App& app, const std::string& flag, std::vector<std
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+void addFolders(CLI::App& app, std::vector<std::string>& plugins, std::vector<std::string>& data) {
+  addRepeated(app, "--plugins", plugins, "Folder with further modules; may be repeated")
+      ->option_text("DIR");
+  addRepeated(app, "--data", data,
+              "Folder to look for scenes, meshes and includes in; may be repeated")
+      ->option_text("DIR");
+}
+
 void SceneFlags::addTo(CLI::App& app) {
   addRepeated(app, "--set", overrides, "Set an attribute of the scene; may be repeated")
       ->option_text("/path.attribute=value");
-  addRepeated(app, "--plugins", plugins, "Folder with further modules; may be repeated")
-      ->option_text("DIR");
-  addRepeated(app, "--data", data, "Folder to look for meshes and includes in; may be repeated")
-      ->option_text("DIR");
+  addFolders(app, plugins, data);
   app.add_flag("--lenient", lenient, "Unknown elements and attributes only warn");
 }
 

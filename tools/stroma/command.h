@@ -35,6 +35,9 @@ struct SceneFlags {
 CLI::Option* addRepeated(CLI::App& app, const std::string& flag, std::vector<std::string>& values,
                          const std::string& help);
 
+// --plugins and --data.
+void addFolders(CLI::App& app, std::vector<std::string>& plugins, std::vector<std::string>& data);
+
 // Loads every module on the search path into the scene's registry; those that cannot be loaded are
 // reported on standard error.
 void loadAllModules(Scene& scene);

@@ -156,12 +156,7 @@ void addStability(CLI::App& app, int& exitCode) {
       ->option_text("DIR");
   command->add_flag("--check", options->check, "Read the suite and its scenes, and run nothing");
   command->add_flag("--json", options->json, "Print results.json on standard output");
-  addRepeated(*command, "--plugins", options->plugins,
-              "Folder with further modules; may be repeated")
-      ->option_text("DIR");
-  addRepeated(*command, "--data", options->data,
-              "Folder to look for meshes and scenes in; may be repeated")
-      ->option_text("DIR");
+  addFolders(*command, options->plugins, options->data);
   addOneJob(*command, options->one);
   command->footer(
       "DIR/table.html shows every end; table.txt and results.json have the same. DIR/scenes has\n"

@@ -214,12 +214,7 @@ void addStudy(CLI::App& app, int& exitCode) {
   command->add_flag("--slurm", options->slurm,
                     "Write DIR/job.sbatch, a job array that runs what is not done yet");
   command->add_flag("--json", options->json, "Print results.json on standard output");
-  addRepeated(*command, "--plugins", options->plugins,
-              "Folder with further modules; may be repeated")
-      ->option_text("DIR");
-  addRepeated(*command, "--data", options->data,
-              "Folder to look for meshes and scenes in; may be repeated")
-      ->option_text("DIR");
+  addFolders(*command, options->plugins, options->data);
   addOneJob(*command, options->one);
   command->footer(
       "DIR/report.html shows it all; results.csv and results.json are for other programs.\n"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of methods and points, as studies refer to them.
+// Names of methods and points, as studies refer to them and as files are called after them.
 #pragma once
 
 #include <algorithm>
+#include <cctype>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,21 @@ using Names = std::vector<std::string>;
 // Whether the name fits any of what is wanted.
 [[nodiscard]] inline bool fitsAny(std::string_view name, const Names& wanted) {
   return std::ranges::any_of(wanted, [&](const std::string& one) { return fits(one, name); });
+}
+
+// A file's name after a text: lower case, other characters than letters and digits as dashes.
+[[nodiscard]] inline std::string slug(std::string_view text) {
+  std::string out;
+  for (const unsigned char c : text) {
+    if (std::isalnum(c) && c < 128) {
+      out += static_cast<char>(std::tolower(c));
+    } else if (!out.empty() && out.back() != '-') {
+      out += '-';
+    }
+  }
+  out.resize(std::min<std::size_t>(out.size(), 70));
+  while (!out.empty() && out.back() == '-') out.pop_back();
+  return out;
 }
 
 }  // namespace stroma::study

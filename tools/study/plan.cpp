@@ -16,20 +16,6 @@ namespace stroma::study {
 namespace fs = std::filesystem;
 namespace {
 
-std::string slug(std::string_view text) {
-  std::string out;
-  for (const unsigned char c : text) {
-    if (std::isalnum(c) && c < 128) {
-      out += static_cast<char>(std::tolower(c));
-    } else if (!out.empty() && out.back() != '-') {
-      out += '-';
-    }
-  }
-  out.resize(std::min<std::size_t>(out.size(), 70));
-  while (!out.empty() && out.back() == '-') out.pop_back();
-  return out;
-}
-
 class Planner {
  public:
   Planner(const Study& study, const PlanOptions& options, Diagnostics& diagnostics)

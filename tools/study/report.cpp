@@ -7,15 +7,6 @@ namespace stroma::study {
 namespace fs = std::filesystem;
 namespace {
 
-// JSON inside a script element: no "</" or "<!--" may end or open anything.
-std::string inScript(const Json& json) {
-  std::string text;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
-    c == '<' ? text += "\\u003c" : text += c;
-  }
-  return text;
-}
-
 std::string wordsOf(const Json& summary) {
   std::string html = "<ul>";
   for (const Json& question : summary["questions"]) {
@@ -42,6 +33,14 @@ std::string fill(const std::string& page, const std::map<std::string, std::strin
 }
 
 }  // namespace
+
+std::string inScript(const Json& json) {
+  std::string text;
+  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+    c == '<' ? text += "\\u003c" : text += c;
+  }
+  return text;
+}
 
 fs::path reportFolder() {
   std::error_code failure;

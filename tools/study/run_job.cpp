@@ -12,9 +12,8 @@
 #include <numeric>
 
 #include "core/parallel.h"
-#include "core/scene.h"
-#include "core/traverse.h"
 #include "tools/study/content_hash.h"
+#include "tools/study/job_scene.h"
 #include "tools/study/machine.h"
 #include "tools/study/measures.h"
 #include "tools/study/picture.h"
@@ -53,18 +52,6 @@ double percentile(std::vector<double> values, double fraction) {
   return values[static_cast<std::size_t>(std::max(place, 0.0))];
 }
 
-// Lines are those of the generated scene, whose text it is.
-std::string firstError(const Diagnostics& diagnostics, const std::string& file) {
-  for (const Diagnostic& d : diagnostics.all()) {
-    if (d.severity != Severity::error) continue;
-    if (!d.where || d.where.source->name() == "--set") return d.message;
-    const auto at = d.where.source->position(d.where.offset);
-    return std::filesystem::path(file).filename().string() + ":" + std::to_string(at.line) + ":" +
-           std::to_string(at.column) + ": " + d.message;
-  }
-  return "the scene cannot be run";
-}
-
 // A body that went so many times its own size away did not go there by its own forces.
 constexpr double blownUp = 10'000;
 
@@ -90,16 +77,10 @@ class Runner {
   Json run() {
     result_ = {{"id", job_.id}, {"label", job_.label}, {"status", "failed"}, {"message", ""}};
     setThreadCount(job_.threads);
-    SceneOptions options;
-    options.overrides = job_.overrides;
-    options.pluginFolders.insert(options.pluginFolders.begin(), job_.plugins.begin(),
-                                 job_.plugins.end());
-    options.dataFolders.assign(job_.data.begin(), job_.data.end());
-    options.writesOutput = false;
     const auto text = readFile(job_.scene);
     if (!text) return fail("cannot read '" + job_.scene + "'");
     const auto begin = Clock::now();
-    Scene scene(std::move(options));
+    Scene scene(optionsOf(job_));
     const bool ready = scene.loadText(*text, job_.base) && scene.initialise();
     result_["load_ms"] = millisecondsSince(begin);
     if (!ready) {
@@ -131,8 +112,7 @@ class Runner {
 
   [[nodiscard]] std::uint64_t stepsOf(Scene& scene) const {
     if (job_.steps > 0) return job_.steps;
-    const double wanted = job_.time.value_or(scene.root().duration);
-    return static_cast<std::uint64_t>(std::max(1.0, std::ceil(wanted / scene.dt() - 1e-9)));
+    return stepsIn(job_.time.value_or(scene.root().duration), scene);
   }
 
   bool runOnce(Scene& scene) {
@@ -161,14 +141,7 @@ class Runner {
     for (const Measure& m : job_.measures) measures[m.name] = evaluate(scene, m);
     result_["measures"] = std::move(measures);
     result_["state_hash"] = hexText(scene.stateHash());
-    Json limiters = Json::object();
-    forEachComponent(scene.root(), [&](Component& component) {
-      for (const Limiter* limiter : component.limiters()) {
-        if (limiter->count() == 0) continue;
-        limiters[component.path() + "." + std::string(limiter->name())] = limiter->count();
-      }
-    });
-    result_["limiters"] = std::move(limiters);
+    result_["limiters"] = limitersOf(scene);
     result_["modules"] = scene.modules().loaded();
     result_["picture"] = pictureOf(scene);
   }

@@ -1,34 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Suites through the command line: tables, exit codes, what goes wrong; and criteria in single runs.
-set -uo pipefail
 stroma=$1
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-
-# expect CODE TITLE COMMAND...: runs it; standard output and error are left in out.txt and err.txt
-expect() {
-  local code=$1 title=$2 got
-  shift 2
-  "$@" > out.txt 2> err.txt
-  got=$?
-  if (( got == code )); then
-    echo "ok    $title"
-  else
-    echo "FAIL  $title: exit code $got, not $code"
-    cat err.txt out.txt
-    failures=$(( failures + 1 ))
-  fi
-}
-# holds TITLE COMMAND...
-holds() {
-  local title=$1
-  shift
-  if "$@" > /dev/null; then echo "ok    $title"; else echo "FAIL  $title"; failures=$(( failures + 1 )); fi
-}
+# shellcheck source=tests/cli/expect.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../../cli/expect.sh"
 
 # scene NAME CHECK
 scene() {
@@ -93,4 +68,4 @@ expect 1 "no such case" "$stroma" stability good.xml --case nothing --out none
 expect 1 "no suite at all" "$stroma" stability
 expect 2 "a file that is not there" "$stroma" stability nowhere.xml
 
-exit $(( failures > 0 ))
+report

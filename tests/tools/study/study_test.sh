@@ -1,34 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Whole studies through the command line: tables, exit codes, what goes wrong, stopping and going on.
-set -uo pipefail
 stroma=$1
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-
-# expect CODE TITLE COMMAND...: runs it; standard output and error are left in out.txt and err.txt
-expect() {
-  local code=$1 title=$2 got
-  shift 2
-  "$@" > out.txt 2> err.txt
-  got=$?
-  if (( got == code )); then
-    echo "ok    $title"
-  else
-    echo "FAIL  $title: exit code $got, not $code"
-    cat err.txt out.txt
-    failures=$(( failures + 1 ))
-  fi
-}
-# holds TITLE COMMAND...
-holds() {
-  local title=$1
-  shift
-  if "$@" > /dev/null; then echo "ok    $title"; else echo "FAIL  $title"; failures=$(( failures + 1 )); fi
-}
+# shellcheck source=tests/cli/expect.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../../cli/expect.sh"
 study() { "$stroma" study "$@" --cache cache; }
 # the columns of a table that do not depend on the clock: question to error, and the states' hashes
 answers() { cut -d, -f1-7 "$1/results.csv"; grep -o '"state_hash": "[0-9a-f]*"' "$1/results.json"; }
@@ -189,5 +164,4 @@ touch file
 expect 4 "a folder that cannot be made" study fall.xml --out file/below
 expect 0 "help" "$stroma" study --help
 
-echo "$failures failures"
-(( failures == 0 ))
+report
