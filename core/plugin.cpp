@@ -8,6 +8,20 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "core/interfaces/animation_loop.h"
+#include "core/interfaces/collision_model.h"
+#include "core/interfaces/force_field.h"
+#include "core/interfaces/haptic_device.h"
+#include "core/interfaces/integrator.h"
+#include "core/interfaces/linear_solver.h"
+#include "core/interfaces/mapping.h"
+#include "core/interfaces/mass.h"
+#include "core/interfaces/mesh.h"
+#include "core/interfaces/observer.h"
+#include "core/interfaces/projective_constraint.h"
+#include "core/interfaces/tool.h"
+#include "core/interfaces/topology_modifier.h"
+#include "core/interfaces/viewer.h"
 #include "core/json.h"
 
 namespace stroma {
@@ -30,6 +44,22 @@ std::string mismatch(const std::string& name, int abi, std::string_view buildId)
 std::map<fs::path, const PluginDescriptor*>& openLibraries() {
   static std::map<fs::path, const PluginDescriptor*> libraries;
   return libraries;
+}
+
+// The most particular first.
+template <class... Interfaces>
+std::string_view firstOf(const Component& component) {
+  std::string_view role;
+  static_cast<void>(
+      ((dynamic_cast<const Interfaces*>(&component) ? (role = Interfaces::role, true) : false) ||
+       ...));
+  return role;
+}
+
+std::string_view roleOf(const Component& component) {
+  return firstOf<AnimationLoop, CollisionModel, ForceField, HapticDevice, Integrator, LinearSolver,
+                 Mapping, Mass, MechanicalState, Topology, Mesh, ProjectiveConstraint, Tool,
+                 TopologyModifier, Viewer, Observer>(component);
 }
 
 }  // namespace
@@ -87,6 +117,12 @@ std::string manifestText(const PluginDescriptor& descriptor, const fs::path& lib
     for (const std::string& alias : entry.aliases) json.value(alias);
   }
   json.endArray();
+  json.key("roles").beginObject();
+  for (const auto& [name, entry] : registry.entries()) {
+    const std::string_view role = roleOf(*registry.create(entry));
+    if (!role.empty()) json.member(name, role);
+  }
+  json.endObject();
   json.endObject();
   return json.text() + "\n";
 }
@@ -113,6 +149,9 @@ ModuleIndex::ModuleIndex(const std::vector<fs::path>& folders) {
         m.library = path.parent_path() / tree.get<std::string>("library");
         for (const auto& item : tree.get_child("components")) {
           m.components.push_back(item.second.data());
+        }
+        if (const auto roles = tree.get_child_optional("roles")) {
+          for (const auto& item : *roles) m.roles.emplace(item.first, item.second.data());
         }
         if (module(m.name)) continue;  // an earlier folder wins
         for (const std::string& component : m.components) {

@@ -42,7 +42,7 @@ namespace stroma {
 
 inline constexpr std::uint32_t pluginMagic = 0x5354524d;  // "STRM"
 // Raised when a class that plugins derive from changes.
-inline constexpr std::uint16_t coreAbi = 4;
+inline constexpr std::uint16_t coreAbi = 5;
 
 extern "C" struct PluginDescriptor {
   std::uint32_t magic;
@@ -62,6 +62,8 @@ struct ModuleManifest {
   int abi = 0;
   std::filesystem::path library;
   std::vector<std::string> components;  // names and aliases
+  // Of each component, without aliases, the interface that it implements ("ForceField"), if any.
+  std::map<std::string, std::string, std::less<>> roles;
 };
 
 // The build id of this core.

@@ -75,12 +75,17 @@ bool Scene::load(const std::filesystem::path& file) {
   return readInto(readSceneFile(file, options_.dataFolders, diagnostics_));
 }
 
+bool Scene::load(const SceneElement& root, const std::filesystem::path& file) {
+  file_ = file;
+  return readInto(root);
+}
+
 bool Scene::loadText(std::string text, const std::filesystem::path& file) {
   file_ = file;
   return readInto(readSceneText(std::move(text), file, options_.dataFolders, diagnostics_));
 }
 
-bool Scene::readInto(std::optional<SceneElement> element) {
+bool Scene::readInto(const std::optional<SceneElement>& element) {
   if (!element) return false;
   contentHash_ = hashElement(*element, hashBytes({}));
   for (const std::string& assignment : options_.overrides) {

@@ -23,6 +23,8 @@
 
 namespace stroma {
 
+struct SceneElement;
+
 struct SceneOptions {
   std::vector<std::filesystem::path> pluginFolders = ModuleIndex::defaultFolders();
   std::vector<std::filesystem::path>
@@ -45,6 +47,8 @@ class Scene {
 
   // Reads a scene; false when there were errors (see diagnostics()).
   [[nodiscard]] bool load(const std::filesystem::path& file);
+  // The same from elements that have been read, and perhaps edited: readSceneFile(file, ...).
+  [[nodiscard]] bool load(const SceneElement& root, const std::filesystem::path& file);
   // The same from text; `file` names it and is the place that meshes are relative to.
   [[nodiscard]] bool loadText(std::string text, const std::filesystem::path& file);
   // Configures and binds the components in order of their links, compiles the schedule, starts.
@@ -105,7 +109,7 @@ class Scene {
  private:
   friend class SceneReader;
   [[nodiscard]] double timeAt(std::uint64_t step) const;
-  [[nodiscard]] bool readInto(std::optional<struct SceneElement> element);
+  [[nodiscard]] bool readInto(const std::optional<SceneElement>& element);
   // Components such that everything a component links to comes before it; cycles are reported.
   [[nodiscard]] std::vector<Component*> dependencyOrder();
   void compile();

@@ -7,6 +7,7 @@
 #include "components/material/stable_neo_hookean.h"
 #include "core/element_body.h"
 #include "core/schedule.h"
+#include "core/sorted_ids.h"
 
 namespace stroma {
 
@@ -88,6 +89,18 @@ template <class Element>
 void ElementForceField<Element>::addTangent(BlockMatrix& matrix, Index offset, double stiffness,
                                             double /*damping*/) const {
   law_->addTangent(matrix, offset, -stiffness);
+}
+
+template <class Element>
+std::vector<Index> ElementForceField<Element>::neighboursOf(Index particle) const {
+  std::vector<Index> neighbours;
+  for (const Index place : mesh_->placesOf(particle)) {
+    for (const Index node : mesh_->nodes(place / Element::nodes)) {
+      if (node != particle) neighbours.push_back(node);
+    }
+  }
+  sortUnique(neighbours);
+  return neighbours;
 }
 
 template <class Element>

@@ -69,6 +69,7 @@ class ElementForceField : public ForceField, public StressField {
   [[nodiscard]] bool addPattern(BlockPattern& pattern, Index offset) const override;
   void addTangent(BlockMatrix& matrix, Index offset, double stiffness,
                   double damping) const override;
+  [[nodiscard]] std::vector<Index> neighboursOf(Index particle) const override;
 
  protected:
   [[nodiscard]] virtual std::unique_ptr<ElementLaw> makeLaw() const = 0;

@@ -333,6 +333,11 @@ void MLSForceField::addTangent(BlockMatrix& matrix, Index offset, double stiffne
   law_->addTangent(matrix, offset, -stiffness);
 }
 
+std::vector<Index> MLSForceField::neighboursOf(Index particle) const {
+  const auto row = neighbourhoods_.neighboursOf(particle);
+  return {row.begin(), row.end()};
+}
+
 Mat3 MLSForceField::stressAt(const StateView& at, Index particle) const {
   return law_->stressAt(at.x, particle);
 }

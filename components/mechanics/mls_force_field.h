@@ -197,6 +197,7 @@ class MLSForceField final : public ForceField, public StressField {
   [[nodiscard]] bool addPattern(BlockPattern& pattern, Index offset) const override;
   void addTangent(BlockMatrix& matrix, Index offset, double stiffness,
                   double damping) const override;
+  [[nodiscard]] std::vector<Index> neighboursOf(Index particle) const override;
 
   // The discretisation, for the volume constraint and mappings of the same particles.
   [[nodiscard]] const MlsBonds& bonds() const { return *bonds_; }

@@ -108,7 +108,8 @@ class Table {
     if (std::abs(key.pose.orientation.norm() - 1) > 1e-3) {
       return fail(parts[4], "the quaternion's length is not 1");
     }
-    key.pose.orientation.normalize();
+    // what is of unit length to rounding keeps its bits
+    if (std::abs(key.pose.orientation.norm() - 1) > 1e-14) key.pose.orientation.normalize();
     if (columns_.buttons && !number(parts.back(), key.buttons)) {
       return fail(parts.back(), quoted(parts.back()) + " is not a whole number");
     }
@@ -148,7 +149,7 @@ ToolSample sampleAt(std::span<const KeyPose> keys, double time) {
   const double duration = b.time - a.time, s = std::min(1.0, (time - a.time) / duration);
   const Vec3 turn = rotationVector(a.pose.orientation, b.pose.orientation);
   sample.pose.position = (1 - s) * a.pose.position + s * b.pose.position;
-  sample.pose.orientation = rotated(a.pose.orientation, s * turn);
+  sample.pose.orientation = s < 1 ? rotated(a.pose.orientation, s * turn) : b.pose.orientation;
   sample.linearVelocity = (b.pose.position - a.pose.position) / duration;
   sample.angularVelocity = turn / duration;
   return sample;

@@ -23,6 +23,11 @@ void MeshTopology::bind() {
   check(quadList);
   check(tetrahedronList);
   check(hexahedronList);
+  if (!texcoords->empty() && texcoords->size() != position->size()) {
+    error(texcoords, "topology-texture",
+          "has " + std::to_string(texcoords->size()) + " entries for " + std::to_string(points) +
+              " points");
+  }
   if (failed() || (tetrahedronList->empty() && hexahedronList->empty())) return;
   volumes_ = lumpedVolumes(*position, std::span<const Tetrahedron>(*tetrahedronList));
   const auto more = lumpedVolumes(*position, std::span<const Hexahedron>(*hexahedronList));
@@ -34,21 +39,38 @@ void MeshTopology::topologyChanged(const TopologyChange& change) {
   if (!cut_) {
     cutPositions_ = position;
     cutTriangles_ = triangleList;
+    cutTexture_ = texcoords;
+    cutWalls_.assign(cutTriangles_.size(), 0);
     cut_ = true;
   }
-  for (const NewSurfaceNode& node : change.edit.nodes) cutPositions_.push_back(node.rest);
+  for (const NewSurfaceNode& node : change.edit.nodes) {
+    cutPositions_.push_back(node.rest);
+    if (!cutTexture_.empty()) cutTexture_.push_back(textureOf(node));
+  }
   for (const ChangedTriangle& triangle : change.edit.changed) {
     cutTriangles_[static_cast<std::size_t>(triangle.slot)] = triangle.nodes;
   }
   for (const AppendedTriangle& triangle : change.edit.appended) {
     cutTriangles_.push_back(triangle.nodes);
+    cutWalls_.push_back(triangle.wall);
   }
+  ++revision_;
+}
+
+Vec3 MeshTopology::textureOf(const NewSurfaceNode& node) const {
+  const auto at = [&](Index i) { return cutTexture_[static_cast<std::size_t>(i)]; };
+  if (node.copyOf >= 0) return at(node.copyOf);
+  if (node.parents[0] < 0) return Vec3::Zero();
+  return (1 - node.weight) * at(node.parents[0]) + node.weight * at(node.parents[1]);
 }
 
 void MeshTopology::topologyRestored() {
   cut_ = false;
   cutPositions_.clear();
   cutTriangles_.clear();
+  cutTexture_.clear();
+  cutWalls_.clear();
+  ++revision_;
 }
 
 }  // namespace stroma

@@ -39,6 +39,14 @@ class MeshTopology final : public Topology {
       "Eights of points: one face in turn, then the opposite one.",
       {.autolink = true, .aliases = "hexas"}};
 
+  Attribute<std::vector<Vec3>> texcoords{
+      this,
+      "texcoords",
+      {},
+      "Texture coordinates (u, v, 0) of the points. Points that a cut makes on an edge lie between "
+      "its ends; those inside the body have the coordinates 0 0.",
+      {.autolink = true}};
+
   void bind() override;
   [[nodiscard]] bool followsCuts() const override { return true; }
   void topologyChanged(const TopologyChange& change) override;
@@ -48,6 +56,11 @@ class MeshTopology final : public Topology {
   }
   [[nodiscard]] std::span<const Triangle> triangles() const override {
     return cut_ ? std::span<const Triangle>(cutTriangles_) : *triangleList;
+  }
+  [[nodiscard]] std::uint64_t revision() const override { return revision_; }
+  [[nodiscard]] std::span<const char> incisionWalls() const override { return cutWalls_; }
+  [[nodiscard]] ConstVec3Span textureCoordinates() const override {
+    return cut_ ? ConstVec3Span(cutTexture_) : ConstVec3Span(*texcoords);
   }
   [[nodiscard]] std::span<const Edge> edges() const override { return uncut(edgeList); }
   [[nodiscard]] std::span<const Quad> quads() const override { return uncut(quadList); }
@@ -62,13 +75,16 @@ class MeshTopology final : public Topology {
   }
 
  private:
+  [[nodiscard]] Vec3 textureOf(const NewSurfaceNode& node) const;
   template <class Element>
   [[nodiscard]] std::span<const Element> uncut(const Attribute<std::vector<Element>>& list) const {
     return cut_ ? std::span<const Element>() : *list;
   }
   std::vector<double> volumes_;
   bool cut_ = false;
-  std::vector<Vec3> cutPositions_;  // once it has been cut
+  std::uint64_t revision_ = 0;
+  std::vector<Vec3> cutPositions_, cutTexture_;  // once it has been cut
+  std::vector<char> cutWalls_;
   std::vector<Triangle> cutTriangles_;
 };
 

@@ -30,6 +30,9 @@ class ForceField : public Component {
   [[nodiscard]] virtual bool addPattern(BlockPattern&, Index /*offset*/) const { return false; }
   virtual void addTangent(BlockMatrix&, Index /*offset*/, double /*stiffness*/,
                           double /*damping*/) const {}
+
+  // The other particles that the force on this one depends on; empty where that is not known.
+  [[nodiscard]] virtual std::vector<Index> neighboursOf(Index /*particle*/) const { return {}; }
 };
 
 }  // namespace stroma

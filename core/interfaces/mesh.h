@@ -18,6 +18,8 @@ class Mesh : public Component {
   [[nodiscard]] virtual std::span<const Quad> quads() const { return {}; }
   [[nodiscard]] virtual std::span<const Tetrahedron> tetrahedra() const { return {}; }
   [[nodiscard]] virtual std::span<const Hexahedron> hexahedra() const { return {}; }
+  // Of each point, where the mesh has them: (u, v, 0).
+  [[nodiscard]] virtual ConstVec3Span textureCoordinates() const { return {}; }
 };
 
 // A triangle surface somebody else owns.
@@ -34,6 +36,10 @@ class Topology : public Mesh {
 
   // Whether its triangles change with a cut (topologyChanged).
   [[nodiscard]] virtual bool followsCuts() const { return false; }
+  // Another number whenever points or triangles have changed.
+  [[nodiscard]] virtual std::uint64_t revision() const { return 0; }
+  // Of each triangle whether it is the side of an incision; empty where nothing has been cut.
+  [[nodiscard]] virtual std::span<const char> incisionWalls() const { return {}; }
   // Volume that each point stands for (m^3), empty where it has no meaning.
   [[nodiscard]] virtual std::span<const double> volumes() const { return {}; }
   // Closed surface of the solid that the points fill, outward oriented; empty where there is none.
