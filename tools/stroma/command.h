@@ -54,6 +54,7 @@ void addComponents(CLI::App& app, int& exitCode);
 void addSchema(CLI::App& app, int& exitCode);
 void addStudy(CLI::App& app, int& exitCode);
 void addStability(CLI::App& app, int& exitCode);
+void addView(CLI::App& app, int& exitCode);
 void addDescribe(CLI::App& app, int& exitCode);
 
 }  // namespace stroma::cli

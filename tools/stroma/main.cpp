@@ -15,6 +15,7 @@ constexpr const char* closing =
     "Examples:\n"
     "  stroma run scenes/cornea/pull.xml\n"
     "  stroma run scenes/cornea/pull.xml --time 0.5 --set /cornea/grip.scale=-1 --out out/push\n"
+    "  stroma view scenes/cornea/interactive.xml\n"
     "  stroma check scenes/*/*.xml\n"
     "  stroma study scenes/studies/bending.xml\n"
     "  stroma components MLSForceField\n"
@@ -50,6 +51,7 @@ int main(int argc, char** argv) {
   cli::addRun(app, exitCode);
   cli::addCheck(app, exitCode);
   cli::addPlan(app, exitCode);
+  cli::addView(app, exitCode);
   cli::addStudy(app, exitCode);
   cli::addStability(app, exitCode);
   cli::addComponents(app, exitCode);
