@@ -55,6 +55,7 @@ void addSchema(CLI::App& app, int& exitCode);
 void addStudy(CLI::App& app, int& exitCode);
 void addStability(CLI::App& app, int& exitCode);
 void addView(CLI::App& app, int& exitCode);
+void addRender(CLI::App& app, int& exitCode);
 void addDescribe(CLI::App& app, int& exitCode);
 
 }  // namespace stroma::cli

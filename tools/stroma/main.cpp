@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   cli::addCheck(app, exitCode);
   cli::addPlan(app, exitCode);
   cli::addView(app, exitCode);
+  cli::addRender(app, exitCode);
   cli::addStudy(app, exitCode);
   cli::addStability(app, exitCode);
   cli::addComponents(app, exitCode);

@@ -128,6 +128,9 @@ function touch(app: App): void {
     const tool = app.choice.tool;
     app.world.camera.setLeftOrbits(tool === null);
     app.world.canvas.classList.toggle('acting', tool !== null);
+    app.stage.tools.choose(tool?.path ?? null);
+    app.stage.tools.update(app.model.tools);
+    app.world.draw();
   });
   app.choice.on('refused', (text) => app.tell(text));
 }

@@ -47,7 +47,11 @@ export function attributeRow(
   control.element.id = `set:${path}`;
   back.onclick = () => send(attribute.default ?? '');
   back.disabled = !app.model.steers;
-  element.append(control.element);
+  if (control.element instanceof HTMLInputElement && control.element.type === 'checkbox') {
+    name.prepend(control.element);
+  } else {
+    element.append(control.element);
+  }
   mark();
   return {
     element,

@@ -21,7 +21,7 @@ export function showHelp(): void {
     h('dl', { className: 'keys' }, ...mouse.flatMap(([name, text]) => [h('dt', {}, name), h('dd', {}, text)])),
     h('div', { className: 'dialog-end' },
       h('a', { href: 'THIRD_PARTY.txt', target: '_blank' }, 'Third-party software'),
-      h('button', { onclick: () => dialog.close() }, 'Close')));
+      h('button', { autofocus: true, onclick: () => dialog.close() }, 'Close')));
   dialog.addEventListener('close', () => dialog.remove());
   document.body.append(dialog);
   dialog.showModal();

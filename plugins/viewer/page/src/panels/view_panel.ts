@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { App } from '../app';
 import { fill, h, section, setText } from '../dom';
-import { formatNumber, formatQuantity } from '../quantity';
+import { formatQuantity } from '../quantity';
 import type { Axis, ViewValues } from '../settings';
 import { colourChoices, valuesOf } from '../view/colouring';
 import type { VectorChoice } from '../view/vectors';
@@ -105,7 +105,7 @@ function particleSection(app: App): HTMLElement {
     const colour = app.settings.values.colour;
     const value = colour ? valuesOf(body, colour)?.[particle] : undefined;
     const unit = body.info.fields.find((field) => field.name === colour)?.unit ?? '';
-    const [x, y, z] = [0, 1, 2].map((k) => formatNumber(1e3 * body.position![3 * particle + k]!, 4));
+    const [x, y, z] = [0, 1, 2].map((k) => (1e3 * body.position![3 * particle + k]!).toFixed(3));
     fill(facts,
       h('dt', {}, 'Number'), h('dd', {}, String(particle)),
       h('dt', {}, 'Place'), h('dd', {}, `${x} ${y} ${z} mm`),

@@ -50,13 +50,15 @@ function rimOf(rest: Float32Array): Rim {
   return { x, y, z: count ? z / count : box.min.z, radius };
 }
 
-// A shallow cone that rises towards the pupil, as the iris lies on the lens.
+// A shallow cone that rises towards the pupil, as the iris lies on the lens, and to the limbus at its
+// border.
 function irisGeometry(radius: number): THREE.BufferGeometry {
-  const profile = new THREE.RingGeometry(0.0001 * radius, radius * 0.985, 96, 8);
+  const profile = new THREE.RingGeometry(0.0001 * radius, radius * 0.99, 96, 24);
   const position = profile.getAttribute('position') as THREE.BufferAttribute;
   for (let i = 0; i < position.count; i++) {
     const r = Math.hypot(position.getX(i), position.getY(i)) / radius;
-    position.setZ(i, -radius * (0.10 - 0.07 * (1 - r)));
+    const border = Math.max(0, (r - 0.93) / 0.06);
+    position.setZ(i, -radius * (0.1 - 0.07 * (1 - r)) * (1 - border * border));
   }
   profile.computeVertexNormals();
   return profile;
@@ -132,18 +134,22 @@ function scleraTexture(): THREE.Texture {
   base.addColorStop(1, '#dcc4b8');
   draw.fillStyle = base;
   draw.fillRect(0, 0, width, height);
-  for (let i = 0; i < 60; i++) {
+  draw.lineCap = 'round';
+  for (let i = 0; i < 46; i++) {
     let x = random() * width;
-    let y = height * (0.75 - 0.1 * random());
-    draw.strokeStyle = `rgba(178,70,62,${0.06 + 0.1 * random()})`;
-    draw.lineWidth = 0.6 + 1.2 * random();
+    let y = height * (0.8 - 0.1 * random());
+    let lean = 0;
+    const end = height * (0.16 + 0.3 * random());
+    draw.strokeStyle = `rgba(190,90,80,${0.05 + 0.07 * random()})`;
+    draw.lineWidth = 0.5 + random();
     draw.beginPath();
     draw.moveTo(x, y);
-    const end = height * (0.1 + 0.25 * random());
     while (y > end) {
-      x += (random() - 0.5) * 22;
-      y -= 6 + 10 * random();
-      draw.lineTo(x, y);
+      lean = 0.8 * lean + (random() - 0.5) * 3;
+      const middle: [number, number] = [x + lean, y - 4];
+      x += 2 * lean;
+      y -= 8;
+      draw.quadraticCurveTo(...middle, x, y);
     }
     draw.stroke();
   }

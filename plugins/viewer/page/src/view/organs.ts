@@ -34,16 +34,20 @@ export function lookOf(path: string): Look {
   };
 }
 
-// Clear with a wet highlight. Refraction would cost a second picture of all behind it.
+// Clear with a wet highlight. Refraction would cost a second picture of all behind it. The light it
+// gives is added to what shines through, so that the highlight is not thinned with the film.
 function corneaLook(): Look {
   const outer = new THREE.MeshPhysicalMaterial({
-    color: 0xcfe3ea,
-    roughness: 0.12,
-    clearcoat: 1,
-    clearcoatRoughness: 0.06,
-    specularIntensity: 1,
+    color: 0x0b1215,
+    roughness: 0.16,
+    clearcoat: 0.35,
+    clearcoatRoughness: 0.05,
     transparent: true,
-    opacity: 0.3,
+    opacity: 0.06,
+    blending: THREE.CustomBlending,
+    blendSrc: THREE.OneFactor,
+    blendDst: THREE.OneMinusSrcAlphaFactor,
+    premultipliedAlpha: false,
     depthWrite: false,
     side: THREE.DoubleSide,
   });

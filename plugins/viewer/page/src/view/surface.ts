@@ -21,7 +21,7 @@ export class SurfaceView {
   constructor(readonly body: Body) {
     this.look = lookOf(body.info.path);
     this.painted = new THREE.MeshStandardMaterial({
-      vertexColors: true, roughness: 0.6, side: THREE.DoubleSide,
+      vertexColors: true, roughness: 0.85, side: THREE.DoubleSide,
     });
     this.textured = new THREE.MeshStandardMaterial({ roughness: 0.6, side: THREE.DoubleSide });
     this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), [this.look.outer, this.look.wall]);

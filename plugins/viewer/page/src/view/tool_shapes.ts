@@ -84,7 +84,7 @@ function addBlade(
   plate.translate(0, thick / 2, 0);
   group.add(new THREE.Mesh(plate, use.metal));
   const middle = (Math.max(...outline.map((p) => p.x)) + Math.min(...outline.map((p) => p.x))) / 2;
-  const radius = Math.min(0.1 * reach, 0.025 * size);
+  const radius = Math.min(0.07 * reach, 0.016 * size);
   const neck = rod(top, top + 0.1 * size, radius, radius * 1.3, use.metal);
   const handle = rod(top + 0.1 * size, top + 0.7 * size, radius * 1.5, radius * 1.9, use.grip);
   neck.position.x = handle.position.x = middle;

@@ -16,9 +16,9 @@ export class ToolsView {
   readonly group = new THREE.Group();
   private readonly shown = new Map<string, ShownTool>();
   private readonly metal = new THREE.MeshStandardMaterial({
-    color: 0xb9c2c8, roughness: 0.32, metalness: 0.35, side: THREE.DoubleSide,
+    color: 0xcdd4d8, roughness: 0.3, metalness: 0.12, side: THREE.DoubleSide,
   });
-  private readonly grip = new THREE.MeshStandardMaterial({ color: 0x59646c, roughness: 0.6 });
+  private readonly grip = new THREE.MeshStandardMaterial({ color: 0x6b777f, roughness: 0.55 });
   private readonly ghostMaterial = new THREE.MeshBasicMaterial({
     color: 0x2b9c93, transparent: true, opacity: 0.35, depthWrite: false, side: THREE.DoubleSide,
   });
@@ -32,6 +32,7 @@ export class ToolsView {
   private size = 1;
   private largestForce = 0;
   showForces = true;
+  private chosen: string | null = null;
 
   constructor() {
     this.dots.frustumCulled = false;
@@ -63,7 +64,9 @@ export class ToolsView {
     for (const tool of tools) {
       const shown = this.shown.get(tool.path);
       if (!shown) continue;
-      shown.shape.visible = true;
+      // a tool of the mouse that is laid down is not in the way
+      const laidDown = shown.info.mouse && this.chosen !== tool.path && !tool.active;
+      shown.shape.visible = !laidDown;
       shown.shape.position.set(...tool.p);
       shown.shape.quaternion.set(...tool.q);
       setJaws(shown.shape, tool.active);
@@ -82,6 +85,11 @@ export class ToolsView {
     this.largestForce = Math.max(this.largestForce, force.length(), 1e-9);
     const length = this.showForces ? (0.33 * this.size) / this.largestForce : 0;
     shown.arrow.set(new THREE.Vector3(...tool.p), force.multiplyScalar(length));
+  }
+
+  // The tool that the mouse holds, if any.
+  choose(path: string | null): void {
+    this.chosen = path;
   }
 
   // Shows where the tool would go; null: nowhere.
