@@ -38,6 +38,13 @@ install_missing() {
     "${missing[@]}" < /dev/null > /dev/null
 }
 
+# npm builds the viewer's page. Debian's npm would clash with a Node that was installed otherwise, which has its own.
+install_npm() {
+  if ! command -v npm > /dev/null; then
+    install_missing nodejs npm
+  fi
+}
+
 # As many compilers at once as there are cores, and memory for (1.5 GB each).
 build_jobs() {
   local cores memory
