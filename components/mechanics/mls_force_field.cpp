@@ -363,10 +363,11 @@ std::shared_ptr<RidingPoints> MLSForceField::shapeOf(ConstVec3Span points,
 }
 
 double MLSForceField::particleSpacing() const {
-  if (spacing > 0.0) return spacing;
   double body = 0;
   for (const double v : volumes_) body += v;
-  return std::cbrt(body / static_cast<double>(volumes_.size()));
+  const double side = std::cbrt(body / static_cast<double>(volumes_.size()));
+  // one far below what the volumes tell would only mean samples without number
+  return spacing > 0.0 ? std::max(*spacing, 0.2 * side) : side;
 }
 
 }  // namespace stroma

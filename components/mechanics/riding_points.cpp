@@ -36,9 +36,13 @@ void prepareForCuts(RidingPoints& points, ConstVec3Span rest, ConstVec3Span X) {
   points.states.assign(rest.size(), RidingPoints::State::sound);
   points.single.assign(rest.size(), 0);
   points.longestArm = 0;
-  for (Index s = 0; s < points.shape.pointCount(); ++s)
-    for (const Index i : points.shape.carriersOf(s))
+  points.leastAtRest = fewestLinks;
+  for (Index s = 0; s < points.shape.pointCount(); ++s) {
+    const auto carriers = points.shape.carriersOf(s);
+    points.leastAtRest = std::min(points.leastAtRest, static_cast<Index>(carriers.size()));
+    for (const Index i : carriers)
       points.longestArm = std::max(points.longestArm, (X[i] - rest[s]).norm());
+  }
   points.shape.reserveForCuts();
 }
 

@@ -6,6 +6,7 @@
 // that it sees; all others keep their shape functions.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <string>
 
@@ -17,7 +18,7 @@ struct RidingPoints {
   SurfaceShape shape;
   Index supports = 12;
 
-  // Kept for cuts. A chip sees fewer than fewestOf() particles.
+  // Kept for cuts. A chip sees fewer than fewest() particles.
   enum class State : char { sound, chip, retired };
   std::vector<Vec3> eyes;
   std::vector<State> states;
@@ -29,7 +30,9 @@ struct RidingPoints {
   Index newChips = 0;
   Marks marks;
 
-  [[nodiscard]] Index fewest() const { return std::min(supports, fewestLinks); }
+  Index leastAtRest = fewestLinks;  // carriers of a point in the whole body, which may have few
+
+  [[nodiscard]] Index fewest() const { return std::min({supports, fewestLinks, leastAtRest}); }
 };
 
 // The particles as a cut has left them. The gradients are the plain ones.

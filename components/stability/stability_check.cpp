@@ -212,7 +212,7 @@ void StabilityCheck::record(When when, std::uint64_t step) {
 }
 
 void StabilityCheck::stop() {
-  if (stopped_) return;
+  if (stopped_ || failed()) return;  // one that could not start has nothing to look at
   stopped_ = true;
   const std::uint64_t step = scene().stepCount();
   if (begun_ && step != lastLook_) look(scene().time(), step);
