@@ -230,6 +230,23 @@ void addChange(const Projection& S, Index local, const Row& row, std::vector<Vec
   for (const Vec3& change : S.changeOf(local)) gradients[slot++] += change;
 }
 
+// Changes keep linear motions exact but for rounding, which a row whose neighbours hardly fill
+// space makes large: it is taken out where it shows.
+void keepExact(ConstVec3Span X, const Neighbourhoods& n, Index i, std::vector<Vec3>& gradients) {
+  constexpr double rounding = 1e-10;
+  const Row& row = n.rows[i];
+  Mat3 linear = Mat3::Zero();
+  for (Index slot = row.begin; slot < row.begin + row.size; ++slot) {
+    linear += (X[n.neighbours[slot]] - X[i]) * gradients[slot].transpose();
+  }
+  const double error = (linear - Mat3::Identity()).norm();
+  if (!(error > rounding && error < 0.5)) return;
+  const Mat3 back = linear.transpose().inverse();
+  for (Index slot = row.begin; slot < row.begin + row.size; ++slot) {
+    gradients[slot] = back * gradients[slot];
+  }
+}
+
 // A slice or chip whose particles do not fill it asks of its few neighbours what they cannot give:
 // rows that would grow out of all proportion are better left alone.
 bool isModest(const Projection& S, Index local, const Row& row, std::span<const Vec3> gradients) {
@@ -313,8 +330,10 @@ ProjectionReport makeConsistent(ConstVec3Span X, const Neighbourhoods& n,
     if (g.rank[i] == 3) rows.push_back(i);
   Projection S(X, n, transposed, V, rows, 0);
   S.apply(solve(S, r, options), r);
-  parallelFor(static_cast<Index>(rows.size()),
-              [&](Index k) { addChange(S, rows[k], n.rows[rows[k]], g.values); });
+  parallelFor(static_cast<Index>(rows.size()), [&](Index k) {
+    addChange(S, rows[k], n.rows[rows[k]], g.values);
+    keepExact(X, n, rows[k], g.values);
+  });
   report.residualAfter = findResidual();
   return report;
 }
@@ -345,11 +364,14 @@ ProjectionReport makeConsistentLocally(ConstVec3Span X, const Neighbourhoods& n,
   Projection S(patch.X, patch.n, patch.transposed, patch.V, patch.rows, shift);
   S.apply(solve(S, r, options), r);
   for (const Index local : patch.rows) {
-    const Row& row = n.rows[patch.particles[local]];
-    if (all || isModest(S, local, row, g.values))
+    const Index own = patch.particles[local];
+    const Row& row = n.rows[own];
+    if (all || isModest(S, local, row, g.values)) {
       addChange(S, local, row, g.values);
-    else
+      keepExact(X, n, own, g.values);
+    } else {
       ++report.left;
+    }
   }
   report.residualAfter = findResidual();
   return report;

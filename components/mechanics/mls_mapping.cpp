@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "components/mechanics/mls_mapping.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace stroma {
@@ -9,6 +10,16 @@ void MLSMapping::bind() {
   if (&forceField->state() != in.get()) {
     error(forceField, "mapping-force-field",
           "acts on '" + forceField->state().path() + "', but the input is '" + in->path() + "'");
+    return;
+  }
+  const auto nodes = static_cast<Index>(out->rest().size());
+  for (const Triangle& t : surface ? surface->triangles() : std::span<const Triangle>{}) {
+    const Index last = *std::ranges::max_element(t);
+    if (last < nodes) continue;
+    error(surface, "mapping-mesh",
+          "has a triangle with node " + std::to_string(last) + ", but '" + out->path() + "' has " +
+              std::to_string(nodes) + " nodes",
+          "the output is the state of that mesh's own points");
     return;
   }
   findShape();
@@ -60,7 +71,14 @@ bool MLSMapping::Last::isStill(ConstVec3Span particles, Vec3Span points) {
 }
 
 void MLSMapping::apply(ConstVec3Span particles, Vec3Span points) const {
-  if (!positions_.isStill(particles, points)) points_->shape.apply(particles, points);
+  if (positions_.isStill(particles, points)) return;
+  const bool isState = particles.data() == in->x().data() && points.data() == out->x().data();
+  if (isState && !velocities_.isStill(in->v(), out->v())) {
+    // whoever asks for the state's positions asks for its velocities next
+    points_->shape.apply(particles, in->v(), points, out->v());
+  } else {
+    points_->shape.apply(particles, points);
+  }
 }
 
 void MLSMapping::applyJ(ConstVec3Span particles, Vec3Span points) const {

@@ -364,12 +364,21 @@ void SurfaceShape::buildTranspose(Index particles) {
 }
 
 void SurfaceShape::apply(ConstVec3Span particles, Vec3Span points) const {
-  parallelFor(pointCount(), [&](Index s) { points[s] = valueAt(s, particles); });
+  parallelFor(pointCount(), [&](Index s) { points[s] = valuesAt<1>(s, {particles.data()})[0]; });
+}
+
+void SurfaceShape::apply(ConstVec3Span first, ConstVec3Span second, Vec3Span firstPoints,
+                         Vec3Span secondPoints) const {
+  parallelFor(pointCount(), [&](Index s) {
+    const auto values = valuesAt<2>(s, {first.data(), second.data()});
+    firstPoints[s] = values[0];
+    secondPoints[s] = values[1];
+  });
 }
 
 void SurfaceShape::applyTo(std::span<const Index> some, ConstVec3Span particles,
                            Vec3Span points) const {
-  for (const Index s : some) points[s] = valueAt(s, particles);
+  for (const Index s : some) points[s] = valuesAt<1>(s, {particles.data()})[0];
 }
 
 void SurfaceShape::addTransposed(ConstVec3Span points, Vec3Span particles) const {

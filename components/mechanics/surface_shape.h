@@ -79,7 +79,10 @@ class SurfaceShape {
 
   // points = sum_a phi_a particles_a: positions, displacements or velocities.
   void apply(ConstVec3Span particles, Vec3Span points) const;
-  // The same for some points.
+  // Two at once, such as positions and velocities: the rows are read once.
+  void apply(ConstVec3Span first, ConstVec3Span second, Vec3Span firstPoints,
+             Vec3Span secondPoints) const;
+  // One for some points.
   void applyTo(std::span<const Index> some, ConstVec3Span particles, Vec3Span points) const;
   // particles_a += sum_s phi_a(s) points_s: forces.
   void addTransposed(ConstVec3Span points, Vec3Span particles) const;
@@ -87,10 +90,16 @@ class SurfaceShape {
  private:
   void buildTranspose(Index particles);
   void followRow(Index s, std::span<const ShapeEntry> before, std::span<const ShapeEntry> now);
-  [[nodiscard]] Vec3 valueAt(Index s, ConstVec3Span particles) const {
-    Vec3 sum = Vec3::Zero();
-    for (const ShapeEntry& e : shapeOf(s)) sum += e.weight * particles[e.particle];
-    return sum;
+  // Of N fields at once, each with the bits that it has alone.
+  template <std::size_t N>
+  [[nodiscard]] std::array<Vec3, N> valuesAt(Index s,
+                                             const std::array<const Vec3*, N>& fields) const {
+    std::array<Vec3, N> sums;
+    sums.fill(Vec3::Zero());
+    for (const ShapeEntry& e : shapeOf(s)) {
+      for (std::size_t n = 0; n < N; ++n) sums[n] += e.weight * fields[n][e.particle];
+    }
+    return sums;
   }
 
   std::vector<Row> rows_, transposedRows_, carrierRows_;
