@@ -72,16 +72,21 @@ class Browser {
     for (const int stream : {1, 2}) {
       posix_spawn_file_actions_addopen(&files, stream, "/dev/null", 1, 0);
     }
-    if (posix_spawn(&process_, program.c_str(), &files, nullptr, argv.data(), environ) != 0) {
+    // a group of its own: the program is a script that starts others
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    if (posix_spawn(&process_, program.c_str(), &files, &attributes, argv.data(), environ) != 0) {
       process_ = -1;
     }
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
   }
   Browser(const Browser&) = delete;
   Browser& operator=(const Browser&) = delete;
   ~Browser() {
     if (process_ > 0) {
-      kill(process_, SIGTERM);
+      kill(-process_, SIGTERM);
       waitpid(process_, nullptr, 0);
     }
     std::error_code ignored;

@@ -19,6 +19,8 @@ export interface ScriptInterface {
   readonly problems: string[];
   state(): Record<string, unknown>;
   screenPoint(point: Vec3): [number, number];
+  // Where the surface's point whose place at rest is nearest to this one is now.
+  pointNow(rest: Vec3): number[] | null;
   send(request: Request): Promise<Answer>;
 }
 
@@ -30,6 +32,7 @@ export function scriptInterface(app: App, problems: string[]): ScriptInterface {
     problems,
     state: () => stateOf(app),
     screenPoint: (point) => app.world.screenPoint(new THREE.Vector3(...point)),
+    pointNow: (rest) => pointNow(app, rest),
     send: (what) => app.connection.ask(what),
   };
 }
@@ -79,6 +82,21 @@ function bodyState(body: Body): Record<string, unknown> {
     lowest: position ? extreme(position, 1) : null,
     highest: position ? extreme(position, -1) : null,
   };
+}
+
+function pointNow(app: App, rest: Vec3): number[] | null {
+  let nearest = Infinity;
+  let found: number[] | null = null;
+  for (const { topology, position } of app.model.surfaces()) {
+    if (!topology || position?.length !== topology.rest.length) continue;
+    for (let i = 0; i < position.length; i += 3) {
+      const away = Math.hypot(...rest.map((x, k) => x - topology.rest[i + k]!));
+      if (away >= nearest) continue;
+      nearest = away;
+      found = [...position.subarray(i, i + 3)];
+    }
+  }
+  return found;
 }
 
 // The point with the least (1) or the greatest (-1) z.

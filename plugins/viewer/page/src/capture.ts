@@ -44,10 +44,12 @@ export class VideoRecorder {
     }
     const parts: Blob[] = [];
     const recorder = new MediaRecorder(this.app.world.canvas.captureStream(30), {
-      mimeType: type, videoBitsPerSecond: 8_000_000,
+      mimeType: type,
+      videoBitsPerSecond: 8_000_000,
     });
     recorder.ondataavailable = (event) => parts.push(event.data);
-    recorder.onstop = () => download(new Blob(parts, { type: 'video/webm' }), `${baseName(this.app)}.webm`);
+    recorder.onstop = () =>
+      download(new Blob(parts, { type: 'video/webm' }), `${baseName(this.app)}.webm`);
     recorder.start(1000);
     this.recorder = recorder;
     this.app.world.draw();
@@ -58,7 +60,8 @@ export class VideoRecorder {
 export async function saveText(app: App, what: 'scene' | 'recording'): Promise<void> {
   const answer = await app.connection.ask({ type: 'save', what });
   if (!answer.done) return app.tell(answer.text ?? 'There is nothing to save.');
-  const type = what === 'scene' ? 'application/xml' : 'text/plain';
-  const name = answer.name ?? (what === 'scene' ? 'scene.xml' : 'recording.session');
-  download(new Blob([answer.text ?? ''], { type }), name);
+  for (const { name, text } of answer.files ?? []) {
+    const type = name.endsWith('.xml') ? 'application/xml' : 'text/plain';
+    download(new Blob([text], { type }), name);
+  }
 }

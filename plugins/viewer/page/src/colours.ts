@@ -53,6 +53,11 @@ export interface Range {
   high: number;
 }
 
+// An end of a range as it is written: what is nothing against the whole is 0.
+export function shownEnd(end: number, range: Range): number {
+  return Math.abs(end) < 1e-3 * Math.abs(range.high - range.low) ? 0 : end;
+}
+
 // Range of the finite values, widened where it is a point; null where there are none.
 export function rangeOf(values: ArrayLike<number>): Range | null {
   let low = Infinity;

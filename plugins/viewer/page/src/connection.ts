@@ -47,7 +47,12 @@ export class Connection extends Emitter<ConnectionEvents> {
 
   ask(request: Request): Promise<Answer> {
     if (!this.isOpen) {
-      return Promise.resolve({ type: 'answer', n: 0, done: false, text: 'There is no connection.' });
+      return Promise.resolve({
+        type: 'answer',
+        n: 0,
+        done: false,
+        text: 'There is no connection.',
+      });
     }
     const n = ++this.lastNumber;
     return new Promise((resolve) => {

@@ -45,7 +45,12 @@ export function setText(element: Element, text: string): void {
 }
 
 // A panel's section that folds, remembering whether it is open.
-export function section(title: string, key: string, open: boolean, ...children: Child[]): HTMLDetailsElement {
+export function section(
+  title: string,
+  key: string,
+  open: boolean,
+  ...children: Child[]
+): HTMLDetailsElement {
   const details = h('details', { className: 'section' }, h('summary', {}, title), ...children);
   const kept = localStorage.getItem(`stroma.open.${key}`);
   details.open = kept === null ? open : kept === '1';
@@ -60,16 +65,15 @@ const icons: Record<string, string> = {
   pause: 'M4 3h3v11H4zM10 3h3v11h-3z',
   step: 'M3 3l7 5.5L3 14zM11 3h2.5v11H11z',
   reset: 'M8.5 3a5.5 5.5 0 1 1-5.3 4h1.9a3.7 3.7 0 1 0 3.4-2.2V7.2L4.6 4 8.5.8z',
-  undo: 'M6.5 3v3h3a4 4 0 0 1 0 8H5v-1.8h4.500a2.200 2.200 0 0 0 0-4.400h-3v3L2 6.900z',
-  camera: 'M2 5h3l1.200-2h4.600L12 5h3v8.500H2zM8.500 6.500a2.700 2.700 0 1 0 0 5.400 2.700 2.700 0 0 0 0-5.400z',
-  record: 'M8.500 3.500a5 5 0 1 0 0 10 5 5 0 0 0 0-10z',
-  save: 'M7.600 2h1.800v6.200l2.300-2.300 1.300 1.300-4.500 4.500L4 7.200l1.300-1.300 2.300 2.300zM3 13h11v1.800H3z',
-  left: 'M2 3h13v11H2zM3.500 4.500v8H6v-8z',
-  right: 'M2 3h13v11H2zM11 4.500v8h2.500v-8z',
-  sun: 'M8.500 5.300a3.200 3.200 0 1 0 0 6.400 3.200 3.200 0 0 0 0-6.400zM7.700 1h1.600v2.500H7.700zM7.700 13.500h1.600V16H7.700zM1 7.700h2.500v1.600H1zM13.500 7.700H16v1.600h-2.500z',
-  help: 'M8.500 1.500a7 7 0 1 0 0 14 7 7 0 0 0 0-14zm-.9 10h1.800v1.800H7.600zm.9-8c1.700 0 3 1 3 2.600 0 1.900-2.100 2.200-2.100 4H7.600c0-2.700 2-2.700 2-4 0-.6-.5-.9-1.100-.9-.700 0-1.200.400-1.200 1.200H5.500c0-1.800 1.300-2.900 3-2.900z',
-  home: 'M8.500 2L15 8h-1.800v6H9.800v-4H7.200v4H3.800V8H2z',
-  close: 'M4.300 3L8.500 7.200 12.700 3 14 4.300 9.800 8.500l4.200 4.200-1.300 1.300-4.200-4.200L4.300 14 3 12.700l4.200-4.200L3 4.300z',
+  camera: 'M2 5h3l1.2-2h4.6L12 5h3v8.5H2zM8.5 6.5a2.7 2.7 0 1 0 0 5.4 2.7 2.7 0 0 0 0-5.4z',
+  record: 'M8.5 3.5a5 5 0 1 0 0 10 5 5 0 0 0 0-10z',
+  save: 'M7.6 2h1.8v6.2l2.3-2.3 1.3 1.3-4.5 4.5L4 7.2l1.3-1.3 2.3 2.3zM3 13h11v1.8H3z',
+  left: 'M2 3h13v11H2zM3.5 4.5v8H6v-8z',
+  right: 'M2 3h13v11H2zM11 4.5v8h2.5v-8z',
+  sun: 'M8.5 5.3a3.2 3.2 0 1 0 0 6.4 3.2 3.2 0 0 0 0-6.4zM7.7 1h1.6v2.5H7.7zM7.7 13.5h1.6V16H7.7zM1 7.7h2.5v1.6H1zM13.5 7.7H16v1.6h-2.5z',
+  help: 'M8.5 1.5a7 7 0 1 0 0 14 7 7 0 0 0 0-14zm-.9 10h1.8v1.8H7.6zm.9-8c1.7 0 3 1 3 2.6 0 1.9-2.1 2.2-2.1 4H7.6c0-2.7 2-2.7 2-4 0-.6-.5-.9-1.1-.9-.7 0-1.2.4-1.2 1.2H5.5c0-1.8 1.3-2.9 3-2.9z',
+  close:
+    'M4.300 3L8.500 7.200 12.700 3 14 4.300 9.800 8.500l4.200 4.200-1.300 1.300-4.200-4.200L4.300 14 3 12.700l4.200-4.200L3 4.300z',
 };
 
 export function icon(name: keyof typeof icons & string): SVGSVGElement {
@@ -86,5 +90,9 @@ export function icon(name: keyof typeof icons & string): SVGSVGElement {
 
 // A button that shows an icon, named for those who do not see it.
 export function iconButton(name: string, title: string, onclick: () => void): HTMLButtonElement {
-  return h('button', { className: 'icon-button', title, onclick, aria: { label: title } }, icon(name));
+  return h(
+    'button',
+    { className: 'icon-button', title, onclick, aria: { label: title } },
+    icon(name),
+  );
 }

@@ -7,17 +7,34 @@ export interface Key {
   action: string;
 }
 
-const plain = (key: string) => (event: KeyboardEvent): boolean =>
-  event.key.toLowerCase() === key && !event.ctrlKey && !event.metaKey && !event.altKey;
+const plain =
+  (key: string) =>
+  (event: KeyboardEvent): boolean =>
+    event.key.toLowerCase() === key && !event.ctrlKey && !event.metaKey && !event.altKey;
 
 export const keys: Key[] = [
   { label: 'space', match: plain(' '), text: 'play or pause', action: 'play' },
   { label: '.', match: plain('.'), text: 'one step', action: 'step' },
   { label: 'R', match: plain('r'), text: 'back to the start', action: 'reset' },
-  { label: '← →', match: (e) => plain('arrowleft')(e) || plain('arrowright')(e), text: 'to the kept state before or after', action: 'rewind' },
-  { label: 'Ctrl Z', match: (e) => (e.ctrlKey || e.metaKey) && e.key.toLowerCase() === 'z', text: 'take back the last change', action: 'undo' },
+  {
+    label: '← →',
+    match: (e) => plain('arrowleft')(e) || plain('arrowright')(e),
+    text: 'to the kept state before or after',
+    action: 'rewind',
+  },
+  {
+    label: 'Ctrl Z',
+    match: (e) => (e.ctrlKey || e.metaKey) && e.key.toLowerCase() === 'z',
+    text: 'take back the last change',
+    action: 'undo',
+  },
   { label: 'O', match: plain('o'), text: 'orbit', action: 'orbit' },
-  { label: '1 … 9', match: (e) => /^[1-9]$/.test(e.key) && !e.ctrlKey && !e.metaKey && !e.altKey, text: 'the tool of this number', action: 'tool' },
+  {
+    label: '1 … 9',
+    match: (e) => /^[1-9]$/.test(e.key) && !e.ctrlKey && !e.metaKey && !e.altKey,
+    text: 'the tool of this number',
+    action: 'tool',
+  },
   { label: 'H', match: plain('h'), text: 'the whole scene', action: 'home' },
   { label: 'C', match: plain('c'), text: 'next colouring', action: 'colour' },
   { label: 'S', match: plain('s'), text: 'surface', action: 'surface' },
@@ -39,7 +56,8 @@ export const keys: Key[] = [
 export function listenToKeys(act: (action: string, event: KeyboardEvent) => void): void {
   window.addEventListener('keydown', (event) => {
     const target = event.target as HTMLElement;
-    if (target.closest('input:not([type=checkbox]), textarea, select, dialog')) return;
+    if (target.closest('input[type=text], textarea, select, dialog')) return;
+    if (target.closest('input[type=range]') && event.key.startsWith('Arrow')) return;
     if (event.key === ' ' && target.closest('button, summary')) return;
     const key = keys.find((one) => one.match(event));
     if (!key) return;

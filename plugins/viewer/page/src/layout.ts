@@ -9,6 +9,8 @@ import { showHelp } from './panels/help';
 import { hintLine } from './panels/hint';
 import { inspector } from './panels/inspector';
 import { PlotList } from './panels/plots';
+import { stoppedBanner } from './panels/stopped';
+import { summary } from './panels/summary';
 import { toolbar } from './panels/toolbar';
 import { togglePlay, transport } from './panels/transport';
 import { Selection, tree } from './panels/tree';
@@ -36,38 +38,59 @@ export function layOut(app: App, area: HTMLElement, themes: Themes, rates: Rates
     help: showHelp,
     side: (which) => toggleSide(which),
   });
-  const left = h('aside', { className: 'side left' },
-    section('Scene', 'scene', true, tree(app, selection)),
-    section('Attributes', 'attributes', true, inspector(app, selection, plots)));
+  const left = h(
+    'aside',
+    { className: 'side left' },
+    section('Scene', 'scene', true, summary(app), tree(app, selection)),
+    section('Attributes', 'attributes', true, inspector(app, selection, plots)),
+  );
   const right = viewPanel(app, plots);
   const bottom = h('footer', { className: 'bottom' }, transport(app), problems.badge, time.bar);
-  area.append(problems.banner, hintLine(app), time.sheet, problems.sheet);
+  area.append(problems.banner, stoppedBanner(app), hintLine(app), time.sheet, problems.sheet);
   document.body.append(top, left, area, right, bottom);
   if (window.innerWidth < narrow) document.body.classList.add('no-left', 'no-right');
 
   listenToKeys((action, event) => {
     switch (action) {
-      case 'play': return togglePlay(app);
-      case 'step': return void request(app, { type: 'step', count: 1 });
-      case 'reset': return void request(app, { type: 'reset' });
-      case 'rewind': return rewindBy(app, event.key === 'ArrowLeft' ? -1 : 1);
-      case 'undo': return void request(app, { type: 'undo' });
-      case 'orbit': return app.choice.orbit();
-      case 'tool': return chooseNumber(app, Number(event.key));
-      case 'home': return app.stage.goToView();
-      case 'colour': return nextColour();
+      case 'play':
+        return togglePlay(app);
+      case 'step':
+        return void request(app, { type: 'step', count: 1 });
+      case 'reset':
+        return void request(app, { type: 'reset' });
+      case 'rewind':
+        return rewindBy(app, event.key === 'ArrowLeft' ? -1 : 1);
+      case 'undo':
+        return void request(app, { type: 'undo' });
+      case 'orbit':
+        return app.choice.orbit();
+      case 'tool':
+        return chooseNumber(app, Number(event.key));
+      case 'home':
+        return app.stage.goToView();
+      case 'colour':
+        return nextColour();
       case 'surface':
       case 'particles':
       case 'ghost':
-      case 'forces': return app.settings.set(action, !app.settings.values[action]);
-      case 'budget': return time.bar.click();
-      case 'diagnostics': problems.sheet.hidden = !problems.sheet.hidden; return;
-      case 'picture': return keepPicture(app);
-      case 'video': return document.getElementById('video')?.click();
-      case 'theme': return themes.toggle();
+      case 'forces':
+        return app.settings.set(action, !app.settings.values[action]);
+      case 'budget':
+        return time.bar.click();
+      case 'diagnostics':
+        problems.sheet.hidden = !problems.sheet.hidden;
+        return;
+      case 'picture':
+        return keepPicture(app);
+      case 'video':
+        return document.getElementById('video')?.click();
+      case 'theme':
+        return themes.toggle();
       case 'left':
-      case 'right': return toggleSide(action);
-      case 'help': return showHelp();
+      case 'right':
+        return toggleSide(action);
+      case 'help':
+        return showHelp();
     }
   });
 }

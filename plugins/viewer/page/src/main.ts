@@ -38,7 +38,12 @@ function start(options: Options): void {
   const stage = new Stage(world, model, settings);
   const choice = new ToolChoice(model, connection);
   const app: App = {
-    connection, model, settings, world, stage, choice,
+    connection,
+    model,
+    settings,
+    world,
+    stage,
+    choice,
     tell: (text) => tell(notices, text),
   };
   const rates = new Rates();
@@ -78,7 +83,9 @@ function takeOptions(app: App, options: Options): void {
     if (placed) return;
     placed = true;
     app.world.camera.place(
-      new THREE.Vector3(...camera.slice(0, 3)), new THREE.Vector3(...camera.slice(3, 6)), camera[6],
+      new THREE.Vector3(...camera.slice(0, 3)),
+      new THREE.Vector3(...camera.slice(3, 6)),
+      camera[6],
     );
   });
 }
@@ -88,14 +95,21 @@ function connect(app: App, area: HTMLElement): void {
   area.append(ended);
   app.connection.on('message', (message) => app.model.take(message));
   app.connection.on('binary', (message) => app.model.takeBinary(message));
-  app.connection.on('open', () => { ended.hidden = true; });
+  app.connection.on('open', () => {
+    ended.hidden = true;
+  });
   app.connection.on('closed', ({ everOpen }) => {
     ended.hidden = false;
     ended.replaceChildren(
       h('strong', {}, everOpen ? 'Simulation ended' : 'No simulation here'),
-      h('span', {}, everOpen
-        ? 'The page connects again when it is back.'
-        : 'Is the address complete, with its token?'));
+      h(
+        'span',
+        {},
+        everOpen
+          ? 'The page connects again when it is back.'
+          : 'Is the address complete, with its token?',
+      ),
+    );
   });
 }
 
@@ -105,14 +119,17 @@ function askForWhatIsShown(app: App, watches: boolean): void {
     for (const body of app.model.bodies.values()) {
       const { colour } = app.settings.values;
       app.connection.send({
-        type: 'look', body: body.info.id,
+        type: 'look',
+        body: body.info.id,
         field: isSent(body, colour) ? colour : '',
         particles: app.stage.particlesShown(),
       });
     }
   };
   app.model.on('scene', look);
-  app.settings.on('changed', (name) => { if (name === 'colour' || name === 'particles') look(); });
+  app.settings.on('changed', (name) => {
+    if (name === 'colour' || name === 'particles') look();
+  });
   if (watches) {
     app.model.on('hello', () => app.connection.send({ type: 'watch', timing: true, energy: true }));
   }

@@ -1,11 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 import {
-  bytes, findArray, floats, indices, positions,
-  type BinaryMessage, type FrameHeader, type TopologyHeader,
+  bytes,
+  findArray,
+  floats,
+  indices,
+  positions,
+  type ArrayHeader,
+  type BinaryMessage,
+  type FrameHeader,
+  type TopologyHeader,
 } from './decode';
 import { Emitter } from './events';
 import type {
-  AttributeValues, BodyInfo, Diagnostics, Hello, SceneInfo, ServerMessage, Status, ToolFrame,
+  Attribute,
+  AttributeValues,
+  BodyInfo,
+  Diagnostics,
+  Hello,
+  SceneInfo,
+  ServerMessage,
+  Status,
+  ToolFrame,
 } from './protocol';
 
 export interface Topology {
@@ -22,6 +37,7 @@ export interface Body {
   info: BodyInfo;
   topology: Topology | null;
   position: Float32Array | null;
+  positionStep: number; // m, what positions are rounded to
   velocity: Float32Array | null; // from the last two frames
   field: Float32Array | null;
   fieldName: string;
@@ -33,6 +49,7 @@ interface ModelEvents {
   status: Status;
   diagnostics: Diagnostics;
   attributes: AttributeValues;
+  changes: string[];
   topology: Body;
   frame: FrameHeader;
 }
@@ -88,20 +105,40 @@ export class Model extends Emitter<ModelEvents> {
     this.frame = null;
     for (const info of scene.bodies) {
       this.bodies.set(info.id, {
-        info, topology: null, position: null, velocity: null, field: null, fieldName: '',
+        info,
+        topology: null,
+        position: null,
+        positionStep: 0,
+        velocity: null,
+        field: null,
+        fieldName: '',
       });
     }
     this.emit('scene', scene);
   }
 
   private noteAttributes(message: AttributeValues): void {
-    for (const attribute of this.everyAttribute()) {
-      const value = message.values[attribute.path];
+    for (const { path, attribute } of this.everyAttribute()) {
+      const value = message.values[path];
       if (value === undefined) continue;
-      attribute.attribute.value = value;
-      if (!attribute.attribute.output) attribute.attribute.isSet = true;
+      attribute.value = value;
+      if (!attribute.output) this.noteChange(path, value, attribute);
     }
     this.emit('attributes', message);
+  }
+
+  // An attribute has another value in the running scene.
+  noteSet(path: string, value: string): void {
+    this.noteAttributes({ type: 'attributes', values: { [path]: value } });
+  }
+
+  private noteChange(path: string, value: string, attribute: Attribute): void {
+    attribute.isSet = true;
+    const { scene } = this;
+    if (!scene) return;
+    scene.changes = scene.changes.filter((line) => !line.startsWith(`${path} `));
+    scene.changes.push(`${path} = ${value}`);
+    this.emit('changes', scene.changes);
   }
 
   private takeTopology(header: TopologyHeader, message: BinaryMessage): void {
@@ -134,11 +171,16 @@ export class Model extends Emitter<ModelEvents> {
       if (position) {
         const before = body.position?.slice() ?? null;
         body.position = positions(position, message, body.position ?? undefined);
-        body.velocity = past > 0 && before ? rates(before, body.position, past) : null;
+        body.positionStep = stepOf(position);
+        body.velocity =
+          past > 0 && before ? rates(before, body.position, past, body.positionStep) : null;
       }
       const field = findArray(part.arrays, 'field');
-      body.field = field ? floats(field, message).slice() : null;
-      body.fieldName = field?.field ?? '';
+      // where a frame brings none, that of before is still the newest
+      if (field) {
+        body.field = floats(field, message).slice();
+        body.fieldName = field.field ?? '';
+      }
     }
     this.tools = header.tools;
     this.frame = header;
@@ -164,11 +206,20 @@ export class Model extends Emitter<ModelEvents> {
   }
 }
 
-function rates(before: Float32Array, now: Float32Array, past: number): Float32Array {
+// What moved by less than it is rounded to stands still.
+function rates(before: Float32Array, now: Float32Array, past: number, step: number): Float32Array {
   const out = new Float32Array(now.length);
   if (before.length !== now.length) return out;
-  for (let i = 0; i < now.length; i++) out[i] = (now[i]! - before[i]!) / past;
+  for (let i = 0; i < now.length; i++) {
+    const way = now[i]! - before[i]!;
+    out[i] = Math.abs(way) > step ? way / past : 0;
+  }
   return out;
+}
+
+function stepOf({ low, high }: ArrayHeader): number {
+  if (!low || !high) return 0;
+  return Math.max(...high.map((x, k) => x - low[k]!)) / 65535;
 }
 
 // Volume (m³) that a closed surface encloses, with the sign of its orientation.

@@ -6,11 +6,18 @@ import type { Body } from './model';
 const reach = 12; // pixels
 
 // The particle under a point of the page: of those within reach the nearest to the eye.
-export function particleAt(app: App, x: number, y: number): { body: Body; particle: number } | null {
+export function particleAt(
+  app: App,
+  x: number,
+  y: number,
+): { body: Body; particle: number } | null {
   const canvas = app.world.canvas.getBoundingClientRect();
   const camera = app.world.camera.object;
   camera.updateMatrixWorld();
-  const matrix = new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+  const matrix = new THREE.Matrix4().multiplyMatrices(
+    camera.projectionMatrix,
+    camera.matrixWorldInverse,
+  );
   const at = new THREE.Vector3();
   let best: { body: Body; particle: number } | null = null;
   let nearest = Infinity;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { App } from './app';
-import { viridis } from './colours';
+import { shownEnd, viridis } from './colours';
 import { legendUnit, unitOfField } from './panels/legend';
 import { formatNumber } from './quantity';
 import type { Options } from './options';
@@ -53,17 +53,27 @@ function withLegend(app: App): HTMLCanvasElement {
   const left = 1.4 * side;
   const top = canvas.height - 2.9 * side;
   for (let i = 0; i < width; i++) {
-    draw.fillStyle = `rgb(${viridis(i / (width - 1)).map((c) => Math.round(255 * c)).join(',')})`;
+    draw.fillStyle = `rgb(${viridis(i / (width - 1))
+      .map((c) => Math.round(255 * c))
+      .join(',')})`;
     draw.fillRect(left + i, top, 1, 0.6 * side);
   }
   draw.fillStyle = getComputedStyle(document.documentElement).getPropertyValue('--text');
   draw.font = `${0.85 * side}px system-ui, "DejaVu Sans", sans-serif`;
   draw.textBaseline = 'top';
-  draw.fillText(formatNumber(range.low / unit.factor, 3), left, top + 0.85 * side);
+  draw.fillText(formatNumber(shownEnd(range.low, range) / unit.factor, 3), left, top + 0.85 * side);
   draw.textAlign = 'right';
-  draw.fillText(formatNumber(range.high / unit.factor, 3), left + width, top + 0.85 * side);
+  draw.fillText(
+    formatNumber(shownEnd(range.high, range) / unit.factor, 3),
+    left + width,
+    top + 0.85 * side,
+  );
   draw.textAlign = 'left';
   draw.textBaseline = 'bottom';
-  draw.fillText(`${readable(colour)}${unit.text ? ` (${unit.text})` : ''}`, left, top - 0.25 * side);
+  draw.fillText(
+    `${readable(colour)}${unit.text ? ` (${unit.text})` : ''}`,
+    left,
+    top - 0.25 * side,
+  );
   return canvas;
 }

@@ -109,7 +109,7 @@ export interface Status {
   watchers: number;
   values: Record<string, number>;
   stages?: StageTime[];
-  haptics?: Record<string, Record<string, number>>;
+  haptics?: Record<string, number | Record<string, number>>;
   kinetic?: number;
   potential?: number;
   limiters?: Record<string, number>;
@@ -145,7 +145,7 @@ export interface Answer {
   text?: string;
   ids?: number[];
   types?: string[];
-  name?: string;
+  files?: { name: string; text: string }[];
 }
 
 export type ServerMessage = Hello | SceneInfo | Status | Diagnostics | AttributeValues | Answer;

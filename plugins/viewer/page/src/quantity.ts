@@ -12,7 +12,16 @@ const prefixes: [string, number][] = [
   ['G', 1e9],
 ];
 const factors: Record<string, number> = {
-  n: 1e-9, u: 1e-6, µ: 1e-6, μ: 1e-6, m: 1e-3, c: 1e-2, d: 1e-1, k: 1e3, M: 1e6, G: 1e9,
+  n: 1e-9,
+  u: 1e-6,
+  µ: 1e-6,
+  μ: 1e-6,
+  m: 1e-3,
+  c: 1e-2,
+  d: 1e-1,
+  k: 1e3,
+  M: 1e6,
+  G: 1e9,
 };
 // Units that are read more easily with a prefix.
 const prefixed = new Set(['m', 's', 'N', 'Pa', 'J', 'W', 'Hz', 'rad', 'm/s']);
@@ -47,7 +56,10 @@ export function formatNumber(value: number, digits = 4): string {
   const magnitude = Math.abs(value);
   const text =
     magnitude >= 1e6 || magnitude < 1e-4
-      ? value.toExponential(digits - 1).replace(/\.?0+e/, 'e').replace('e+', 'e')
+      ? value
+          .toExponential(digits - 1)
+          .replace(/\.?0+e/, 'e')
+          .replace('e+', 'e')
       : String(Number(value.toPrecision(digits)));
   return text.replace('-', '−');
 }

@@ -11,7 +11,8 @@ export class Themes extends Emitter<{ changed: Theme }> {
     super();
     const dark = window.matchMedia('(prefers-color-scheme: dark)');
     const chosen = asked ?? localStorage.getItem('stroma.theme');
-    this.current = chosen === 'light' || chosen === 'dark' ? chosen : dark.matches ? 'dark' : 'light';
+    this.current =
+      chosen === 'light' || chosen === 'dark' ? chosen : dark.matches ? 'dark' : 'light';
     dark.addEventListener('change', () => {
       if (!localStorage.getItem('stroma.theme')) this.apply(dark.matches ? 'dark' : 'light');
     });

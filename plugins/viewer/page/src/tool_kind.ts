@@ -11,7 +11,8 @@ export function kindOf(tool: ToolInfo): ToolKind {
   const size = reachOf(tool);
   const first = tool.edge[0]!;
   const last = tool.edge[tool.edge.length - 1]!;
-  const closed = tool.edge.length > 3 && Math.hypot(...first.map((x, k) => x - last[k]!)) < 1e-3 * size;
+  const closed =
+    tool.edge.length > 3 && Math.hypot(...first.map((x, k) => x - last[k]!)) < 1e-3 * size;
   if (closed) return 'punch';
   const sides = tool.edge.map((p) => p[0]);
   if (Math.min(...sides) < -0.02 * size && Math.max(...sides) > 0.02 * size) return 'pushed';

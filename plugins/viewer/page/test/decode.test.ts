@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { bytes, decodeMessage, findArray, floats, indices, positions, type ArrayHeader } from '../src/decode';
+import {
+  bytes,
+  decodeMessage,
+  findArray,
+  floats,
+  indices,
+  positions,
+  type ArrayHeader,
+} from '../src/decode';
 
 // A message as the viewer packs it.
 function pack(kind: number, header: object, payload: Uint8Array): ArrayBuffer {
@@ -41,9 +49,16 @@ test('boxedPositionsAreWithinHalfAStep', () => {
   const high: [number, number, number] = [1, 10, 4e-3];
   const truth = [-0.123, 7.77, 3.21e-3, 1, 0, 4e-3];
   const packed = Uint16Array.from(truth, (x, i) =>
-    Math.round(((x - low[i % 3]!) / (high[i % 3]! - low[i % 3]!)) * 65535));
+    Math.round(((x - low[i % 3]!) / (high[i % 3]! - low[i % 3]!)) * 65535),
+  );
   const array: ArrayHeader = { name: 'position', type: 'u16box', count: 6, offset: 0, low, high };
-  const header = { generation: 1, time: 0, step: 0, bodies: [{ body: 1, revision: 1, arrays: [array] }], tools: [] };
+  const header = {
+    generation: 1,
+    time: 0,
+    step: 0,
+    bodies: [{ body: 1, revision: 1, arrays: [array] }],
+    tools: [],
+  };
   const message = decodeMessage(pack(2, header, new Uint8Array(packed.buffer)));
   const found = positions(array, message);
   truth.forEach((x, i) => {

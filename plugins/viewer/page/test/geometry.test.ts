@@ -8,9 +8,12 @@ import { bladePose, pressPose, pushedPose } from '../src/touch/poses';
 import { cuttingSide, kindOf } from '../src/tool_kind';
 import { smoothNormals, splitCorners } from '../src/view/corners';
 
-const cube = Float32Array.from([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1]);
+const cube = Float32Array.from([
+  0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1,
+]);
 const cubeTriangles = Uint32Array.from([
-  0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7,
+  0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4,
+  3, 4, 7,
 ]);
 
 test('edgesOfACubeStaySharp', () => {
@@ -33,7 +36,10 @@ test('wallsHaveVerticesOfTheirOwnAndComeLast', () => {
   const drawn = splitCorners(flat, triangles, Uint8Array.from([1, 0]));
   assert.equal(drawn.points.length, 6);
   assert.equal(drawn.outerTriangles, 1);
-  assert.deepEqual([...drawn.index.subarray(0, 3)].map((v) => drawn.points[v]), [0, 2, 3]);
+  assert.deepEqual(
+    [...drawn.index.subarray(0, 3)].map((v) => drawn.points[v]),
+    [0, 2, 3],
+  );
 });
 
 test('volumeOfACubeIsOne', () => {
@@ -81,9 +87,58 @@ test('toolsAreKnownByTheirShape', () => {
   const tool = { path: '/t', type: 'T', device: '', mouse: true, radius: 0, samples: [], edge: [] };
   assert.equal(kindOf({ ...tool, radius: 1, type: 'ProbeTool' }), 'probe');
   assert.equal(kindOf({ ...tool, radius: 1, type: 'GripTool' }), 'grip');
-  assert.equal(kindOf({ ...tool, edge: [[0.1, 0, 1], [0, 0, 0]] }), 'blade');
-  assert.equal(kindOf({ ...tool, edge: [[0, 0, 1], [0, 0, 0]] }), 'blade');
-  assert.equal(kindOf({ ...tool, edge: [[0.5, 0, 1], [0, 0, 0], [-0.5, 0, 1]] }), 'pushed');
-  assert.equal(kindOf({ ...tool, edge: [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [1, 0, 0]] }), 'punch');
-  assert.equal(cuttingSide({ ...tool, edge: [[-0.1, 0, 1], [0, 0, 0]] }), -1);
+  assert.equal(
+    kindOf({
+      ...tool,
+      edge: [
+        [0.1, 0, 1],
+        [0, 0, 0],
+      ],
+    }),
+    'blade',
+  );
+  assert.equal(
+    kindOf({
+      ...tool,
+      edge: [
+        [0, 0, 1],
+        [0, 0, 0],
+      ],
+    }),
+    'blade',
+  );
+  assert.equal(
+    kindOf({
+      ...tool,
+      edge: [
+        [0.5, 0, 1],
+        [0, 0, 0],
+        [-0.5, 0, 1],
+      ],
+    }),
+    'pushed',
+  );
+  assert.equal(
+    kindOf({
+      ...tool,
+      edge: [
+        [1, 0, 0],
+        [0, 1, 0],
+        [-1, 0, 0],
+        [0, -1, 0],
+        [1, 0, 0],
+      ],
+    }),
+    'punch',
+  );
+  assert.equal(
+    cuttingSide({
+      ...tool,
+      edge: [
+        [-0.1, 0, 1],
+        [0, 0, 0],
+      ],
+    }),
+    -1,
+  );
 });

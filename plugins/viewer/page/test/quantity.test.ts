@@ -30,7 +30,13 @@ test('whatIsShownIsReadBack', () => {
 });
 
 const modulus: Attribute = {
-  name: 'youngModulus', type: 'number', unit: 'Pa', value: '500000', default: '10000', min: 0, exclusiveMin: true,
+  name: 'youngModulus',
+  type: 'number',
+  unit: 'Pa',
+  value: '500000',
+  default: '10000',
+  min: 0,
+  exclusiveMin: true,
 };
 
 test('slidersOverDecadesAreLogarithmic', () => {
@@ -42,7 +48,14 @@ test('slidersOverDecadesAreLogarithmic', () => {
 });
 
 test('slidersKeepTheDeclaredRange', () => {
-  const ratio: Attribute = { name: 'poissonRatio', type: 'number', value: '0.45', default: '0.33', min: -1, max: 0.5 };
+  const ratio: Attribute = {
+    name: 'poissonRatio',
+    type: 'number',
+    value: '0.45',
+    default: '0.33',
+    min: -1,
+    max: 0.5,
+  };
   const scale = sliderScale(ratio, 0.45)!;
   assert.equal(scale.value(0), -1);
   assert.equal(scale.value(1), 0.5);

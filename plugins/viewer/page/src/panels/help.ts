@@ -13,15 +13,28 @@ export function showHelp(): void {
     ['Probe', 'press and slide; wheel while pressing goes deeper'],
     ['blades', 'drag the way you cut; wheel while cutting goes deeper'],
   ];
-  const dialog = h('dialog', { className: 'help' },
+  const dialog = h(
+    'dialog',
+    { className: 'help' },
     h('h2', {}, 'Keys'),
-    h('dl', { className: 'keys' }, ...keys.flatMap(({ label, text }) =>
-      [h('dt', {}, h('kbd', {}, label)), h('dd', {}, text)])),
+    h(
+      'dl',
+      { className: 'keys' },
+      ...keys.flatMap(({ label, text }) => [h('dt', {}, h('kbd', {}, label)), h('dd', {}, text)]),
+    ),
     h('h2', {}, 'Mouse'),
-    h('dl', { className: 'keys' }, ...mouse.flatMap(([name, text]) => [h('dt', {}, name), h('dd', {}, text)])),
-    h('div', { className: 'dialog-end' },
+    h(
+      'dl',
+      { className: 'keys' },
+      ...mouse.flatMap(([name, text]) => [h('dt', {}, name), h('dd', {}, text)]),
+    ),
+    h(
+      'div',
+      { className: 'dialog-end' },
       h('a', { href: 'THIRD_PARTY.txt', target: '_blank' }, 'Third-party software'),
-      h('button', { autofocus: true, onclick: () => dialog.close() }, 'Close')));
+      h('button', { autofocus: true, onclick: () => dialog.close() }, 'Close'),
+    ),
+  );
   dialog.addEventListener('close', () => dialog.remove());
   document.body.append(dialog);
   dialog.showModal();

@@ -13,22 +13,34 @@ export function inspector(app: App, selection: Selection, plots: PlotList): HTML
   const build = (chosen: Chosen | null): void => {
     rows.clear();
     if (!chosen) {
-      fill(box, h('p', { className: 'muted' }, 'Choose a component above to see and change its attributes.'));
+      fill(
+        box,
+        h(
+          'p',
+          { className: 'muted' },
+          'Choose a component above to see and change its attributes.',
+        ),
+      );
       return;
     }
     const inputs = chosen.attributes.filter((attribute) => !attribute.output);
     const outputs = chosen.attributes.filter((attribute) => attribute.output);
     // what can be changed at once comes first
-    inputs.sort((a, b) => Number(!!b.runtime) - Number(!!a.runtime) || Number(!!b.isSet) - Number(!!a.isSet));
+    inputs.sort(
+      (a, b) => Number(!!b.runtime) - Number(!!a.runtime) || Number(!!b.isSet) - Number(!!a.isSet),
+    );
     const make = (attribute: Chosen['attributes'][0]): HTMLElement => {
       const row = attributeRow(app, chosen.path, attribute, plots);
       rows.set(`${chosen.path}.${attribute.name}`, row);
       return row.element;
     };
-    fill(box, header(app, chosen),
+    fill(
+      box,
+      header(app, chosen),
       ...inputs.map(make),
       outputs.length > 0 && h('h3', {}, 'Outputs'),
-      ...outputs.map(make));
+      ...outputs.map(make),
+    );
     refreshOutputs();
   };
   const refreshOutputs = (): void => {
@@ -54,14 +66,31 @@ function header(app: App, chosen: Chosen): HTMLElement {
     box.append(h('p', { className: 'muted' }, 'Node'));
     return box;
   }
-  const place = chosen.file ? `${chosen.file.split('/').pop()}${chosen.line ? `:${chosen.line}` : ''}` : '';
-  box.append(h('p', { className: 'muted' }, chosen.type, place && h('span', { title: chosen.file ?? '' }, ` · ${place}`)));
+  const place = chosen.file
+    ? `${chosen.file.split('/').pop()}${chosen.line ? `:${chosen.line}` : ''}`
+    : '';
+  box.append(
+    h(
+      'p',
+      { className: 'muted' },
+      chosen.type,
+      place && h('span', { title: chosen.file ?? '' }, ` · ${place}`),
+    ),
+  );
   if (chosen.doc) box.append(h('p', { className: 'doc' }, chosen.doc));
   if (chosen.swappable) {
-    box.append(h('button', {
-      className: 'swap', disabled: !app.model.steers, onclick: () => void openSwap(app, chosen),
-      title: 'Another component in its place, in the running scene',
-    }, 'Swap…'));
+    box.append(
+      h(
+        'button',
+        {
+          className: 'swap',
+          disabled: !app.model.steers,
+          onclick: () => void openSwap(app, chosen),
+          title: 'Another component in its place, in the running scene',
+        },
+        'Swap…',
+      ),
+    );
   }
   return box;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { App } from '../app';
-import { cssGradient, type Range } from '../colours';
+import { cssGradient, shownEnd, type Range } from '../colours';
 import { h, setText } from '../dom';
 import { displayUnit, formatNumber, parseQuantity, type DisplayUnit } from '../quantity';
 import { derivedFields } from '../view/colouring';
@@ -24,9 +24,18 @@ export function legend(app: App): HTMLElement {
   const high = h('input', { type: 'text', className: 'number', aria: { label: 'Highest value' } });
   const unitText = h('span', { className: 'muted' });
   const auto = h('input', { type: 'checkbox', checked: true, id: 'range-auto' });
-  const box = h('div', { className: 'legend', hidden: true }, scale,
+  const box = h(
+    'div',
+    { className: 'legend', hidden: true },
+    scale,
     h('div', { className: 'ends' }, low, unitText, high),
-    h('label', { className: 'check', title: 'The range of what is seen now, or fixed' }, auto, 'Range of what is seen'));
+    h(
+      'label',
+      { className: 'check', title: 'The range of what is seen now, or fixed' },
+      auto,
+      'Range of what is seen',
+    ),
+  );
 
   auto.addEventListener('change', () => {
     app.settings.set('range', auto.checked || !app.stage.range ? null : { ...app.stage.range });
@@ -53,8 +62,10 @@ export function legend(app: App): HTMLElement {
     if (!now) return;
     const unit = legendUnit(now, unitOfField(app, colour));
     setText(unitText, unit.text || '–');
-    if (document.activeElement !== low) low.value = formatNumber(now.low / unit.factor, 3);
-    if (document.activeElement !== high) high.value = formatNumber(now.high / unit.factor, 3);
+    if (document.activeElement !== low)
+      low.value = formatNumber(shownEnd(now.low, now) / unit.factor, 3);
+    if (document.activeElement !== high)
+      high.value = formatNumber(shownEnd(now.high, now) / unit.factor, 3);
   };
   app.world.afterDrawing.push(refresh);
   return box;

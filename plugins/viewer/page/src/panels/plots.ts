@@ -4,7 +4,7 @@ import 'uplot/dist/uPlot.min.css';
 import type { App } from '../app';
 import { fill, h } from '../dom';
 import { enclosedVolume } from '../model';
-import { displayUnit, formatNumber, type DisplayUnit } from '../quantity';
+import { displayUnit, formatNumber, parseQuantity, type DisplayUnit } from '../quantity';
 import type { Themes } from '../theme';
 
 const mostSamples = 1500;
@@ -33,7 +33,10 @@ export class PlotList {
   private drawnAt = 0;
   private offered = '';
 
-  constructor(private readonly app: App, private readonly themes: Themes) {
+  constructor(
+    private readonly app: App,
+    private readonly themes: Themes,
+  ) {
     this.adder.addEventListener('change', () => {
       const series = this.series.get(this.adder.value);
       if (series) this.add(this.adder.value, series.unit);
@@ -41,6 +44,7 @@ export class PlotList {
     });
     this.element = h('div', {}, this.list, this.adder);
     app.model.on('status', () => this.take());
+    app.model.on('attributes', ({ values }) => this.takeOutputs(values));
     app.model.on('scene', (scene) => {
       if (scene.file !== this.file) this.series.clear();
       this.file = scene.file;
@@ -54,9 +58,16 @@ export class PlotList {
   add(path: string, unit: string): void {
     if (this.plots.has(path)) return;
     if (!this.series.has(path)) this.series.set(path, { unit, times: [], values: [] });
-    const close = h('button', { className: 'quiet', title: 'Remove', onclick: () => this.remove(path) }, '×');
-    const element = h('figure', { className: 'plot' },
-      h('figcaption', {}, h('span', { title: path }, shortName(path)), close));
+    const close = h(
+      'button',
+      { className: 'quiet', title: 'Remove', onclick: () => this.remove(path) },
+      '×',
+    );
+    const element = h(
+      'figure',
+      { className: 'plot' },
+      h('figcaption', {}, h('span', { title: path }, shortName(path)), close),
+    );
     this.plots.set(path, { path, element, chart: null, unit: { text: unit, factor: 1 } });
     this.list.append(element);
     this.element.closest('details')?.setAttribute('open', '');
@@ -80,7 +91,8 @@ export class PlotList {
       this.note(path, units.get(path) ?? '', status.time, value);
     }
     if (status.kinetic !== undefined) this.note('kinetic energy', 'J', status.time, status.kinetic);
-    if (status.potential !== undefined) this.note('potential energy', 'J', status.time, status.potential);
+    if (status.potential !== undefined)
+      this.note('potential energy', 'J', status.time, status.potential);
     this.note('real-time factor', '', status.time, status.realTimeFactor);
     for (const body of frame ? this.app.model.surfaces() : []) {
       if (!body.position || !body.topology?.triangles.length) continue;
@@ -92,6 +104,18 @@ export class PlotList {
     this.drawnAt = now;
     this.offer();
     this.draw();
+  }
+
+  // Outputs come as texts; of a vector the length is kept.
+  private takeOutputs(values: Record<string, string>): void {
+    const { status } = this.app.model;
+    if (!status) return;
+    for (const { path, attribute } of this.app.model.everyAttribute()) {
+      const text = attribute.output ? values[path] : undefined;
+      if (text === undefined) continue;
+      const size = sizeOf(text, attribute.unit ?? '');
+      if (Number.isFinite(size)) this.note(path, attribute.unit ?? '', status.time, size);
+    }
   }
 
   private note(path: string, unit: string, time: number, value: number): void {
@@ -123,8 +147,15 @@ export class PlotList {
     if (names.join('\n') === this.offered && this.adder.options.length) return;
     if (document.activeElement === this.adder) return;
     this.offered = names.join('\n');
-    fill(this.adder, h('option', { value: '' }, names.length ? 'Plot a value…' : 'Values come with the first steps'),
-      ...names.map((path) => h('option', { value: path }, path)));
+    fill(
+      this.adder,
+      h(
+        'option',
+        { value: '' },
+        names.length ? 'Plot a value…' : 'Values come with the first steps',
+      ),
+      ...names.map((path) => h('option', { value: path }, path)),
+    );
   }
 
   private draw(): void {
@@ -147,22 +178,34 @@ export class PlotList {
     const muted = this.themes.colour('muted');
     const grid = { stroke: this.themes.colour('line'), width: 1 };
     const font = '11px system-ui, sans-serif';
-    return new uPlot({
-      width: Math.max(150, this.list.clientWidth || 230),
-      height: plotHeight,
-      legend: { show: false },
-      cursor: { y: false },
-      scales: { x: { time: false } },
-      axes: [
-        { stroke: muted, grid, ticks: grid, font, size: 22, space: 45 },
-        {
-          stroke: muted, grid, ticks: grid, font, size: 52, space: 24,
-          label: unit.text, labelSize: unit.text ? 14 : 0, labelFont: font, labelGap: 0,
-          values: (_, ticks) => ticks.map((tick) => formatNumber(tick, 3)),
-        },
-      ],
-      series: [{}, { stroke: this.themes.colour('accent'), width: 1.5, points: { show: false } }],
-    }, [[], []], plot.element);
+    return new uPlot(
+      {
+        width: Math.max(150, this.list.clientWidth || 230),
+        height: plotHeight,
+        legend: { show: false },
+        cursor: { y: false },
+        scales: { x: { time: false } },
+        axes: [
+          { stroke: muted, grid, ticks: grid, font, size: 22, space: 45 },
+          {
+            stroke: muted,
+            grid,
+            ticks: grid,
+            font,
+            size: 52,
+            space: 24,
+            label: unit.text,
+            labelSize: unit.text ? 14 : 0,
+            labelFont: font,
+            labelGap: 0,
+            values: (_, ticks) => ticks.map((tick) => formatNumber(tick, 3)),
+          },
+        ],
+        series: [{}, { stroke: this.themes.colour('accent'), width: 1.5, points: { show: false } }],
+      },
+      [[], []],
+      plot.element,
+    );
   }
 
   private rebuild(): void {
@@ -172,6 +215,17 @@ export class PlotList {
     }
     this.draw();
   }
+}
+
+// A number, or the length of a vector such as "0 0 1.5 N".
+function sizeOf(text: string, unit: string): number {
+  const single = parseQuantity(text, unit);
+  if (Number.isFinite(single)) return single;
+  const parts = text.trim().split(/\s+/);
+  const last = parseQuantity(parts.slice(2).join(' '), unit);
+  if (parts.length < 3 || !Number.isFinite(last)) return NaN;
+  const scale = Number(parts[2]) ? last / Number(parts[2]) : 1;
+  return Math.hypot(Number(parts[0]) * scale, Number(parts[1]) * scale, last);
 }
 
 // The last two parts of a path.

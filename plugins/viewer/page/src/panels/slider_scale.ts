@@ -37,13 +37,15 @@ export function sliderScale(attribute: Attribute, value: number): SliderScale | 
   if (logarithmic) {
     const ratio = Math.log(high / low);
     return {
-      low, high,
+      low,
+      high,
       value: (place) => low * Math.exp(ratio * place),
       place: (x) => clamp(Math.log(x / low) / ratio),
     };
   }
   return {
-    low, high,
+    low,
+    high,
     value: (place) => low + (high - low) * place,
     place: (x) => clamp((x - low) / (high - low)),
   };

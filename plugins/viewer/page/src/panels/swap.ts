@@ -13,20 +13,34 @@ export async function openSwap(app: App, component: ComponentInfo): Promise<void
     if (await request(app, { type: 'replace', path: component.path, with: by })) dialog.close();
   };
   const xml = h('textarea', {
-    rows: 4, spellcheck: false, value: `<${component.type} name="${component.name}"/>`,
+    rows: 4,
+    spellcheck: false,
+    value: `<${component.type} name="${component.name}"/>`,
   });
   const types = (answer.types ?? []).filter((type) => type !== component.type);
-  fill(dialog,
+  fill(
+    dialog,
     h('h2', {}, `Instead of ${component.type}`),
-    h('p', { className: 'muted' },
-      'The scene goes on from its state where the new component allows it. Undo with Ctrl+Z.'),
-    h('div', { className: 'choices' },
-      ...types.map((type) => h('button', { onclick: () => void swap(type) }, type))),
+    h(
+      'p',
+      { className: 'muted' },
+      'The scene goes on from its state where the new component allows it. Undo with Ctrl+Z.',
+    ),
+    h(
+      'div',
+      { className: 'choices' },
+      ...types.map((type) => h('button', { onclick: () => void swap(type) }, type)),
+    ),
     types.length === 0 && h('p', {}, 'No other type that is known may take its place.'),
-    h('h3', {}, 'Or an element of your own'), xml,
-    h('div', { className: 'dialog-end' },
+    h('h3', {}, 'Or an element of your own'),
+    xml,
+    h(
+      'div',
+      { className: 'dialog-end' },
       h('button', { onclick: () => dialog.close() }, 'Cancel'),
-      h('button', { className: 'primary', onclick: () => void swap(xml.value) }, 'Put it in')));
+      h('button', { className: 'primary', onclick: () => void swap(xml.value) }, 'Put it in'),
+    ),
+  );
   dialog.addEventListener('close', () => dialog.remove());
   document.body.append(dialog);
   dialog.showModal();

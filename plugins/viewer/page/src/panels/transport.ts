@@ -11,20 +11,42 @@ export function transport(app: App): HTMLElement {
   const play = iconButton('play', 'Play or pause (space)', () => togglePlay(app));
   play.classList.add('primary');
   play.id = 'play';
-  const step = iconButton('step', 'One step (.)', () => void request(app, { type: 'step', count: 1 }));
-  const reset = iconButton('reset', 'Back to the start (R)', () => void request(app, { type: 'reset' }));
-  const speed = h('select', { title: 'Most simulated seconds in a second', aria: { label: 'Speed' } },
-    ...speeds.map((value) => h('option', { value: String(value) }, `${value} ×`)));
+  const step = iconButton(
+    'step',
+    'One step (.)',
+    () => void request(app, { type: 'step', count: 1 }),
+  );
+  const reset = iconButton(
+    'reset',
+    'Back to the start (R)',
+    () => void request(app, { type: 'reset' }),
+  );
+  const speed = h(
+    'select',
+    { title: 'Most simulated seconds in a second', aria: { label: 'Speed' } },
+    ...speeds.map((value) => h('option', { value: String(value) }, `${value} ×`)),
+  );
   speed.value = '1';
-  speed.addEventListener('change', () => void request(app, { type: 'speed', value: Number(speed.value) }));
+  speed.addEventListener(
+    'change',
+    () => void request(app, { type: 'speed', value: Number(speed.value) }),
+  );
   const time = h('output', { className: 'time', title: 'Simulated time' }, formatTime(0));
   const stepNumber = h('small', { className: 'muted' });
-  const factor = h('span', { className: 'factor', title: 'Simulated seconds in a second of the clock' });
+  const factor = h('span', {
+    className: 'factor',
+    title: 'Simulated seconds in a second of the clock',
+  });
   const scrubber = rewindScrubber(app);
-  const steer = h('button', {
-    className: 'steer', title: 'Another page steers: take over',
-    onclick: () => void request(app, { type: 'steer' }),
-  }, 'Steer from here');
+  const steer = h(
+    'button',
+    {
+      className: 'steer',
+      title: 'Another page steers: take over',
+      onclick: () => void request(app, { type: 'steer' }),
+    },
+    'Steer from here',
+  );
   const controls = [play, step, reset, speed, scrubber.input];
 
   const enable = (): void => {
@@ -41,14 +63,23 @@ export function transport(app: App): HTMLElement {
     setText(time, formatTime(status.time));
     setText(stepNumber, `step ${status.step}`);
     showFactor(factor, status);
-    const nearest = speeds.reduce((a, b) => (Math.abs(b - status.speed) < Math.abs(a - status.speed) ? b : a));
+    const nearest = speeds.reduce((a, b) =>
+      Math.abs(b - status.speed) < Math.abs(a - status.speed) ? b : a,
+    );
     if (document.activeElement !== speed) speed.value = String(nearest);
     scrubber.show(status);
   });
   enable();
-  return h('div', { className: 'transport' },
-    h('div', { className: 'buttons' }, play, step, reset), speed,
-    h('div', { className: 'clock' }, time, stepNumber), scrubber.box, factor, steer);
+  return h(
+    'div',
+    { className: 'transport' },
+    h('div', { className: 'buttons' }, play, step, reset),
+    speed,
+    h('div', { className: 'clock' }, time, stepNumber),
+    scrubber.box,
+    factor,
+    steer,
+  );
 }
 
 export function togglePlay(app: App): void {
@@ -65,15 +96,24 @@ function showFactor(element: HTMLElement, status: Status): void {
 }
 
 function rewindScrubber(app: App): {
-  box: HTMLElement; input: HTMLInputElement; show: (status: Status) => void;
+  box: HTMLElement;
+  input: HTMLInputElement;
+  show: (status: Status) => void;
 } {
   const input = h('input', {
-    type: 'range', min: '0', max: '0', step: '1', id: 'rewind', aria: { label: 'Rewind' },
+    type: 'range',
+    min: '0',
+    max: '0',
+    step: '1',
+    id: 'rewind',
+    aria: { label: 'Rewind' },
   });
   const label = h('output', { className: 'muted' });
   let kept: number[] = [];
   let held = false;
-  input.addEventListener('pointerdown', () => { held = true; });
+  input.addEventListener('pointerdown', () => {
+    held = true;
+  });
   input.addEventListener('input', () => {
     const time = kept[Number(input.value)];
     if (time !== undefined) setText(label, formatTime(time));
@@ -83,15 +123,24 @@ function rewindScrubber(app: App): {
     const time = kept[Number(input.value)];
     if (time !== undefined) void request(app, { type: 'rewind', time });
   });
-  const box = h('label', { className: 'rewind', title: 'Back to a kept state' }, 'Rewind', input, label);
+  const box = h(
+    'label',
+    { className: 'rewind', title: 'Back to a kept state' },
+    'Rewind',
+    input,
+    label,
+  );
   return {
-    box, input,
+    box,
+    input,
     show(status) {
       if (held) return;
       kept = status.kept;
       input.max = String(Math.max(0, kept.length - 1));
       let nearest = 0;
-      kept.forEach((time, i) => { if (time <= status.time + 1e-9) nearest = i; });
+      kept.forEach((time, i) => {
+        if (time <= status.time + 1e-9) nearest = i;
+      });
       input.value = String(nearest);
       box.classList.toggle('empty', kept.length < 2);
       setText(label, kept.length ? `${kept.length} kept` : 'none kept');

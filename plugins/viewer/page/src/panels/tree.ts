@@ -39,25 +39,43 @@ export function tree(app: App, selection: Selection): HTMLElement {
 }
 
 function nodeEntry(
-  node: NodeInfo, depth: number, selection: Selection, folded: Set<string>, refresh: () => void,
+  node: NodeInfo,
+  depth: number,
+  selection: Selection,
+  folded: Set<string>,
+  refresh: () => void,
 ): HTMLElement {
   const open = !folded.has(node.path);
-  const row = h('div', { className: 'row node', style: { paddingLeft: `${4 + 12 * depth}px` } },
-    h('button', {
-      className: 'fold', title: open ? 'Fold' : 'Unfold', aria: { expanded: String(open) },
-      onclick: () => {
-        if (open) folded.add(node.path);
-        else folded.delete(node.path);
-        refresh();
+  const row = h(
+    'div',
+    { className: 'row node', style: { paddingLeft: `${4 + 12 * depth}px` } },
+    h(
+      'button',
+      {
+        className: 'fold',
+        title: open ? 'Fold' : 'Unfold',
+        aria: { expanded: String(open) },
+        onclick: () => {
+          if (open) folded.add(node.path);
+          else folded.delete(node.path);
+          refresh();
+        },
       },
-    }, open ? '▾' : '▸'),
-    entryButton(node, node.name, '', selection));
+      open ? '▾' : '▸',
+    ),
+    entryButton(node, node.name, '', selection),
+  );
   const box = h('div', {}, row);
   if (!open) return box;
   for (const component of node.components) {
     const plain = component.name.toLowerCase() === component.type.toLowerCase();
-    box.append(h('div', { className: 'row', style: { paddingLeft: `${24 + 12 * depth}px` } },
-      entryButton(component, component.name, plain ? '' : component.type, selection)));
+    box.append(
+      h(
+        'div',
+        { className: 'row', style: { paddingLeft: `${24 + 12 * depth}px` } },
+        entryButton(component, component.name, plain ? '' : component.type, selection),
+      ),
+    );
   }
   for (const child of node.children) {
     box.append(nodeEntry(child, depth + 1, selection, folded, refresh));
@@ -67,11 +85,18 @@ function nodeEntry(
 
 function entryButton(what: Chosen, name: string, type: string, selection: Selection): HTMLElement {
   const changed = what.attributes.some((attribute) => attribute.isSet && attribute.runtime);
-  return h('button', {
-    className: 'entry', data: { path: what.path }, title: what.path,
-    onclick: () => selection.choose(what),
-    aria: { role: 'treeitem', selected: String(selection.path === what.path) },
-  }, h('span', { className: changed ? 'tunable' : '' }, name), type && h('small', {}, type));
+  return h(
+    'button',
+    {
+      className: 'entry',
+      data: { path: what.path },
+      title: what.path,
+      onclick: () => selection.choose(what),
+      aria: { role: 'treeitem', selected: String(selection.path === what.path) },
+    },
+    h('span', { className: changed ? 'tunable' : '' }, name),
+    type && h('small', {}, type),
+  );
 }
 
 function find(node: NodeInfo, path: string): Chosen | null {

@@ -12,7 +12,10 @@ export class ToolChoice extends Emitter<{ changed: void; depth: number; refused:
   private readonly depths = new Map<ToolKind, number>();
   private size = 1;
 
-  constructor(private readonly model: Model, private readonly connection: Connection) {
+  constructor(
+    private readonly model: Model,
+    private readonly connection: Connection,
+  ) {
     super();
     model.on('scene', () => this.sceneChanged());
   }
@@ -21,8 +24,11 @@ export class ToolChoice extends Emitter<{ changed: void; depth: number; refused:
     return this.model.scene?.tools.find((tool) => tool.path === this.path && tool.mouse) ?? null;
   }
 
+  // Grips, then probes, then what cuts.
   get tools(): ToolInfo[] {
-    return this.model.scene?.tools ?? [];
+    const ranks: Partial<Record<ToolKind, number>> = { grip: 0, probe: 1 };
+    const order = (tool: ToolInfo): number => ranks[kindOf(tool)] ?? 2;
+    return [...(this.model.scene?.tools ?? [])].sort((a, b) => order(a) - order(b));
   }
 
   orbit(): void {
@@ -81,9 +87,11 @@ export class ToolChoice extends Emitter<{ changed: void; depth: number; refused:
     if (Math.abs(size / this.size - 1) > 0.5) this.depths.clear();
     this.size = size;
     const wanted = this.wanted;
-    const found = wanted && this.tools.find(
-      (tool) => tool.mouse && (tool.path === wanted.path || kindOf(tool) === wanted.kind),
-    );
+    const found =
+      wanted &&
+      this.tools.find(
+        (tool) => tool.mouse && (tool.path === wanted.path || kindOf(tool) === wanted.kind),
+      );
     if (found) {
       this.path = found.path;
       this.wanted = null;

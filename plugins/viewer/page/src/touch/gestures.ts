@@ -3,7 +3,7 @@ import * as THREE from 'three';
 import { kindOf } from '../tool_kind';
 import type { Stage } from '../view/stage';
 import type { ToolChoice } from './choice';
-import { firstHit, freeze } from './hits';
+import { firstHit, freeze, type FrozenSurface } from './hits';
 import { bladePose, lifted, pressPose, pushedPose, type ToolPose } from './poses';
 import type { PoseSender } from './sender';
 import { beginStroke, type Stroke } from './strokes';
@@ -16,6 +16,8 @@ export class Gestures {
   private start: [number, number] = [0, 0];
   private hoverAt: [number, number] | null = null;
   private lastHover: [number, number] = [0, 0];
+  private frozen: FrozenSurface[] = [];
+  private frozenAt: unknown = null;
   private hoverDirection = new THREE.Vector2(1, 0);
   onClick: ((x: number, y: number) => void) | null = null;
 
@@ -55,7 +57,10 @@ export class Gestures {
     this.pointer = event.pointerId;
     this.leave();
     this.stroke = beginStroke({
-      tool, sender: this.sender, surfaces, hit,
+      tool,
+      sender: this.sender,
+      surfaces,
+      hit,
       depth: this.choice.depth,
       size: this.stage.size,
       view: this.stage.world.camera.object.getWorldDirection(new THREE.Vector3()),
@@ -71,7 +76,10 @@ export class Gestures {
       return;
     }
     if (!this.choice.tool || event.buttons !== 0 || event.pointerType === 'touch') return;
-    const way = new THREE.Vector2(event.clientX - this.lastHover[0], event.clientY - this.lastHover[1]);
+    const way = new THREE.Vector2(
+      event.clientX - this.lastHover[0],
+      event.clientY - this.lastHover[1],
+    );
     if (way.length() > 2) {
       this.hoverDirection.lerp(way.normalize(), 0.3).normalize();
       this.lastHover = [event.clientX, event.clientY];
@@ -97,11 +105,14 @@ export class Gestures {
     if (!this.stroke) return;
     event.preventDefault();
     event.stopPropagation();
-    this.choice.setDepth(this.choice.depth - Math.sign(event.deltaY) * 0.04 * this.choice.mostDepth);
+    this.choice.setDepth(
+      this.choice.depth - Math.sign(event.deltaY) * 0.04 * this.choice.mostDepth,
+    );
     this.stroke.deepen(this.choice.depth);
   }
 
   private forget(): void {
+    this.frozenAt = null;
     this.stroke = null;
     this.pointer = -1;
   }
@@ -116,7 +127,10 @@ export class Gestures {
   private placeGhost(): void {
     const tool = this.choice.tool;
     if (!tool || !this.hoverAt || this.stroke) return;
-    const hit = firstHit(this.stage.world.ray(...this.hoverAt), freeze(this.stage.model.surfaces()));
+    const { model, world } = this.stage;
+    if (this.frozenAt !== model.frame) this.frozen = freeze(model.surfaces());
+    this.frozenAt = model.frame;
+    const hit = firstHit(world.ray(...this.hoverAt), this.frozen);
     if (!hit) return this.stage.tools.hideGhost();
     const pose = this.hoverPose(hit.point, hit.normal);
     this.stage.tools.setGhost(tool.path, pose.p, pose.q);

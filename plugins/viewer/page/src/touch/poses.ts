@@ -23,7 +23,12 @@ function frameOf(x: Vector3, z: Vector3): Quaternion {
 
 // Handle along the outward normal, the tip `depth` below the surface; `radius`: of a ball at the
 // tip, whose lowest point then is at that depth.
-export function pressPose(point: Vector3, normal: Vector3, depth: number, radius: number): ToolPose {
+export function pressPose(
+  point: Vector3,
+  normal: Vector3,
+  depth: number,
+  radius: number,
+): ToolPose {
   return {
     p: point.clone().addScaledVector(normal, radius - depth),
     q: frameOf(new Vector3(1, 0, 0), normal),
@@ -32,7 +37,11 @@ export function pressPose(point: Vector3, normal: Vector3, depth: number, radius
 
 // A blade that moves along `direction` and cuts to its +x (`side` 1) or -x (-1).
 export function bladePose(
-  point: Vector3, normal: Vector3, direction: Vector3, depth: number, side: 1 | -1,
+  point: Vector3,
+  normal: Vector3,
+  direction: Vector3,
+  depth: number,
+  side: 1 | -1,
 ): ToolPose {
   const along = tangential(direction, normal);
   const handle = normal.clone().multiplyScalar(Math.cos(bladeTilt));
@@ -44,7 +53,12 @@ export function bladePose(
 }
 
 // A two-sided blade that goes in along its axis, flat to the surface.
-export function pushedPose(point: Vector3, normal: Vector3, direction: Vector3, depth: number): ToolPose {
+export function pushedPose(
+  point: Vector3,
+  normal: Vector3,
+  direction: Vector3,
+  depth: number,
+): ToolPose {
   const along = tangential(direction, normal);
   const handle = normal.clone().multiplyScalar(Math.cos(pushedTilt));
   handle.addScaledVector(along, -Math.sin(pushedTilt));

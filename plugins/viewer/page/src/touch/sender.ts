@@ -44,7 +44,12 @@ export class PoseSender {
     this.last = performance.now();
     this.sent++;
     this.connection.send({
-      type: 'pose', tool, p: pose.p.toArray(), q: pose.q.toArray(), buttons, ...(jump && { jump }),
+      type: 'pose',
+      tool,
+      p: pose.p.toArray(),
+      q: pose.q.toArray(),
+      buttons,
+      ...(jump && { jump }),
     });
   }
 }

@@ -69,7 +69,10 @@ class PullStroke implements Stroke {
 
 // Follows the surface with the pointer, tracing it where the ray leaves it.
 class SurfaceTrack {
-  constructor(private readonly use: StrokeSetting, public hit: Hit) {}
+  constructor(
+    private readonly use: StrokeSetting,
+    public hit: Hit,
+  ) {}
 
   follow(ray: THREE.Ray): boolean {
     const found = firstHit(ray, this.use.surfaces);

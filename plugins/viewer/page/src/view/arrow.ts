@@ -7,7 +7,10 @@ export class Arrow {
   private readonly shaft: THREE.Mesh;
   private readonly head: THREE.Mesh;
 
-  constructor(material: THREE.Material, private readonly thickness: number) {
+  constructor(
+    material: THREE.Material,
+    private readonly thickness: number,
+  ) {
     const shaft = new THREE.CylinderGeometry(1, 1, 1, 12);
     shaft.rotateX(Math.PI / 2).translate(0, 0, 0.5);
     const head = new THREE.ConeGeometry(1, 1, 16);
@@ -28,7 +31,8 @@ export class Arrow {
     this.head.position.set(0, 0, length - head);
     this.group.position.copy(from);
     this.group.quaternion.setFromUnitVectors(
-      new THREE.Vector3(0, 0, 1), vector.clone().divideScalar(length),
+      new THREE.Vector3(0, 0, 1),
+      vector.clone().divideScalar(length),
     );
   }
 }

@@ -21,7 +21,11 @@ export function colourChoices(scene: SceneInfo, hasTexture: boolean): ColourChoi
   const fields = new Map<string, ColourChoice>();
   for (const body of scene.bodies) {
     for (const field of body.fields) {
-      fields.set(field.name, { name: field.name, unit: field.unit ?? '', label: readable(field.name) });
+      fields.set(field.name, {
+        name: field.name,
+        unit: field.unit ?? '',
+        label: readable(field.name),
+      });
     }
   }
   for (const field of derivedFields) if (!fields.has(field.name)) fields.set(field.name, field);
@@ -30,12 +34,13 @@ export function colourChoices(scene: SceneInfo, hasTexture: boolean): ColourChoi
   return choices;
 }
 
-// "vonMisesStress" to "von Mises stress".
+// "volumeRatio" to "volume ratio".
 export function readable(name: string): string {
+  if (name === 'vonMises') return 'von Mises stress';
   return name
     .replace(/[_-]+/g, ' ')
     .replace(/([a-z])([A-Z])/g, (_, a: string, b: string) => `${a} ${b.toLowerCase()}`)
-    .replace('von mises', 'von Mises');
+    .trim();
 }
 
 // Whether the simulation has to send the field of this name for the body.

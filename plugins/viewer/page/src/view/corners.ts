@@ -49,8 +49,12 @@ function nextCorner(c: number): number {
 }
 
 function isSmooth(normals: Float32Array, a: number, b: number): boolean {
-  const ax = normals[3 * a]!, ay = normals[3 * a + 1]!, az = normals[3 * a + 2]!;
-  const bx = normals[3 * b]!, by = normals[3 * b + 1]!, bz = normals[3 * b + 2]!;
+  const ax = normals[3 * a]!,
+    ay = normals[3 * a + 1]!,
+    az = normals[3 * a + 2]!;
+  const bx = normals[3 * b]!,
+    by = normals[3 * b + 1]!,
+    bz = normals[3 * b + 2]!;
   const noDirection = (ax === 0 && ay === 0 && az === 0) || (bx === 0 && by === 0 && bz === 0);
   return noDirection || ax * bx + ay * by + az * bz > creaseCosine;
 }
@@ -59,10 +63,18 @@ function isSmooth(normals: Float32Array, a: number, b: number): boolean {
 function unitNormals(rest: Float32Array, triangles: Uint32Array): Float32Array {
   const out = new Float32Array(triangles.length);
   for (let t = 0; t < triangles.length; t += 3) {
-    const a = 3 * triangles[t]!, b = 3 * triangles[t + 1]!, c = 3 * triangles[t + 2]!;
-    const ux = rest[b]! - rest[a]!, uy = rest[b + 1]! - rest[a + 1]!, uz = rest[b + 2]! - rest[a + 2]!;
-    const vx = rest[c]! - rest[a]!, vy = rest[c + 1]! - rest[a + 1]!, vz = rest[c + 2]! - rest[a + 2]!;
-    const nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+    const a = 3 * triangles[t]!,
+      b = 3 * triangles[t + 1]!,
+      c = 3 * triangles[t + 2]!;
+    const ux = rest[b]! - rest[a]!,
+      uy = rest[b + 1]! - rest[a + 1]!,
+      uz = rest[b + 2]! - rest[a + 2]!;
+    const vx = rest[c]! - rest[a]!,
+      vy = rest[c + 1]! - rest[a + 1]!,
+      vz = rest[c + 2]! - rest[a + 2]!;
+    const nx = uy * vz - uz * vy,
+      ny = uz * vx - ux * vz,
+      nz = ux * vy - uy * vx;
     const length = Math.hypot(nx, ny, nz);
     const longest = Math.max(ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz);
     if (!(length > 0.02 * longest)) continue;
@@ -106,11 +118,21 @@ function number(
 export function smoothNormals(position: Float32Array, index: Uint32Array, to: Float32Array): void {
   to.fill(0);
   for (let t = 0; t < index.length; t += 3) {
-    const a = 3 * index[t]!, b = 3 * index[t + 1]!, c = 3 * index[t + 2]!;
-    const ax = position[a]!, ay = position[a + 1]!, az = position[a + 2]!;
-    const ux = position[b]! - ax, uy = position[b + 1]! - ay, uz = position[b + 2]! - az;
-    const vx = position[c]! - ax, vy = position[c + 1]! - ay, vz = position[c + 2]! - az;
-    const nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+    const a = 3 * index[t]!,
+      b = 3 * index[t + 1]!,
+      c = 3 * index[t + 2]!;
+    const ax = position[a]!,
+      ay = position[a + 1]!,
+      az = position[a + 2]!;
+    const ux = position[b]! - ax,
+      uy = position[b + 1]! - ay,
+      uz = position[b + 2]! - az;
+    const vx = position[c]! - ax,
+      vy = position[c + 1]! - ay,
+      vz = position[c + 2]! - az;
+    const nx = uy * vz - uz * vy,
+      ny = uz * vx - ux * vz,
+      nz = ux * vy - uy * vx;
     for (const i of [a, b, c]) {
       to[i] = to[i]! + nx;
       to[i + 1] = to[i + 1]! + ny;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as THREE from 'three';
 
+// Painted once for all scenes.
+let iris: THREE.Texture | null = null;
+let sclera: THREE.Texture | null = null;
+
 // Iris and eyeball behind a cornea, for context only: they take no part in anything. Sizes follow
 // from the cornea's rest shape, whose apex looks to +z and whose rim is its lowest ring.
 export function makeEye(rest: Float32Array): THREE.Group {
@@ -10,17 +14,24 @@ export function makeEye(rest: Float32Array): THREE.Group {
   const opening = Math.asin((rim.radius * 0.985) / radius);
   const eyeball = new THREE.Mesh(
     new THREE.SphereGeometry(radius, 96, 64, 0, 2 * Math.PI, opening, Math.PI - opening),
-    new THREE.MeshStandardMaterial({ map: scleraTexture(), roughness: 0.38 }),
+    new THREE.MeshStandardMaterial({ map: (sclera ??= scleraTexture()), roughness: 0.38 }),
   );
-  eyeball.rotation.x = Math.PI / 2;
-  eyeball.position.set(rim.x, rim.y, rim.z - radius * Math.cos(opening));
+  // what one sees of the inside past the iris
+  const lip = new THREE.Mesh(
+    new THREE.SphereGeometry(radius, 96, 4, 0, 2 * Math.PI, opening, 0.15),
+    new THREE.MeshStandardMaterial({ color: 0x39484d, roughness: 0.8, side: THREE.BackSide }),
+  );
+  for (const part of [eyeball, lip]) {
+    part.rotation.x = Math.PI / 2;
+    part.position.set(rim.x, rim.y, rim.z - radius * Math.cos(opening));
+  }
 
-  const iris = new THREE.Mesh(
+  const disc = new THREE.Mesh(
     irisGeometry(rim.radius),
-    new THREE.MeshStandardMaterial({ map: irisTexture(), roughness: 0.75 }),
+    new THREE.MeshStandardMaterial({ map: (iris ??= irisTexture()), roughness: 0.75 }),
   );
-  iris.position.set(rim.x, rim.y, rim.z);
-  group.add(eyeball, iris);
+  disc.position.set(rim.x, rim.y, rim.z);
+  group.add(eyeball, lip, disc);
   return group;
 }
 
@@ -50,15 +61,16 @@ function rimOf(rest: Float32Array): Rim {
   return { x, y, z: count ? z / count : box.min.z, radius };
 }
 
-// A shallow cone that rises towards the pupil, as the iris lies on the lens, and to the limbus at its
-// border.
+// A shallow cone that rises towards the pupil, as the iris lies on the lens, and at its border to just
+// below the limbus.
 function irisGeometry(radius: number): THREE.BufferGeometry {
-  const profile = new THREE.RingGeometry(0.0001 * radius, radius * 0.99, 96, 24);
+  const profile = new THREE.RingGeometry(0.0001 * radius, radius, 96, 24);
   const position = profile.getAttribute('position') as THREE.BufferAttribute;
   for (let i = 0; i < position.count; i++) {
     const r = Math.hypot(position.getX(i), position.getY(i)) / radius;
-    const border = Math.max(0, (r - 0.93) / 0.06);
-    position.setZ(i, -radius * (0.1 - 0.07 * (1 - r)) * (1 - border * border));
+    const border = Math.max(0, (r - 0.93) / 0.07);
+    const height = (0.1 - 0.07 * (1 - r)) * (1 - border * border) + 0.02 * border;
+    position.setZ(i, -radius * height);
   }
   profile.computeVertexNormals();
   return profile;
@@ -100,7 +112,9 @@ function irisTexture(): THREE.Texture {
     const to = middle * (0.5 + 0.45 * random());
     const bend = (random() - 0.5) * 0.08;
     const light = random() > 0.45;
-    draw.strokeStyle = light ? `rgba(190,215,205,${0.05 + 0.14 * random()})` : `rgba(8,22,30,${0.06 + 0.14 * random()})`;
+    draw.strokeStyle = light
+      ? `rgba(190,215,205,${0.05 + 0.14 * random()})`
+      : `rgba(8,22,30,${0.06 + 0.14 * random()})`;
     draw.lineWidth = 1 + 2.4 * random();
     draw.beginPath();
     draw.moveTo(Math.cos(angle) * from, Math.sin(angle) * from);

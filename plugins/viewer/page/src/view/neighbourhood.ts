@@ -15,7 +15,11 @@ export class Neighbourhood {
   private readonly dots = new THREE.Points(
     new THREE.BufferGeometry(),
     new THREE.PointsMaterial({
-      color: 0xf0a020, size: 7, sizeAttenuation: false, depthTest: false, transparent: true,
+      color: 0xf0a020,
+      size: 7,
+      sizeAttenuation: false,
+      depthTest: false,
+      transparent: true,
     }),
   );
 

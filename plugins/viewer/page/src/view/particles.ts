@@ -40,7 +40,9 @@ export class ParticleView {
 
   constructor(readonly body: Body) {
     this.material = new THREE.ShaderMaterial({
-      vertexShader, fragmentShader, clipping: true,
+      vertexShader,
+      fragmentShader,
+      clipping: true,
       uniforms: { size: { value: 1e-3 }, pixels: { value: 500 } },
     });
     this.points = new THREE.Points(new THREE.BufferGeometry(), this.material);
@@ -60,7 +62,9 @@ export class ParticleView {
   }
 
   update(): void {
-    const attribute = this.points.geometry.getAttribute('position') as THREE.BufferAttribute | undefined;
+    const attribute = this.points.geometry.getAttribute('position') as
+      | THREE.BufferAttribute
+      | undefined;
     if (!attribute || !this.body.position) return;
     if (attribute.array.length !== this.body.position.length) return;
     (attribute.array as Float32Array).set(this.body.position);

@@ -30,7 +30,11 @@ export class Stage {
   private paintWanted = true;
   private readonly clip = new THREE.Plane();
 
-  constructor(readonly world: World, readonly model: Model, readonly settings: ViewSettings) {
+  constructor(
+    readonly world: World,
+    readonly model: Model,
+    readonly settings: ViewSettings,
+  ) {
     this.neighbourhood = new Neighbourhood(model);
     world.scene.add(this.tools.group, this.vectors.lines, this.neighbourhood.group);
     model.on('scene', (scene) => this.showScene(scene));
@@ -73,7 +77,8 @@ export class Stage {
     const [ax, ay, az, bx, by, bz] = scene.bounds;
     this.bounds.min.set(ax, ay, az);
     this.bounds.max.set(bx, by, bz);
-    if (this.bounds.isEmpty()) this.bounds.set(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));
+    if (this.bounds.isEmpty())
+      this.bounds.set(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));
     this.size = this.bounds.getSize(new THREE.Vector3()).length();
     this.world.camera.setReach(this.size);
   }
@@ -117,6 +122,7 @@ export class Stage {
       view.group.visible = values.surface;
       view.showGhost(values.ghost);
       view.showWalls(values.walls);
+      view.setSeeThrough(values.particles);
     }
     for (const view of this.particles.values()) view.points.visible = this.particlesShown();
     if (this.eye) this.eye.visible = values.context;
@@ -141,6 +147,7 @@ export class Stage {
     }
     for (const view of this.surfaces.values()) view.setClipping(planes);
     for (const view of this.particles.values()) view.setClipping(planes);
+    this.vectors.setClipping(planes);
   }
 
   private paintIfWanted(): void {
@@ -187,9 +194,7 @@ export class Stage {
     this.eye?.traverse((object) => {
       if (!(object instanceof THREE.Mesh)) return;
       (object.geometry as THREE.BufferGeometry).dispose();
-      const material = object.material as THREE.MeshStandardMaterial;
-      material.map?.dispose();
-      material.dispose();
+      (object.material as THREE.Material).dispose();
     });
     this.eye?.removeFromParent();
     this.eye = null;

@@ -21,14 +21,20 @@ export class SurfaceView {
   constructor(readonly body: Body) {
     this.look = lookOf(body.info.path);
     this.painted = new THREE.MeshStandardMaterial({
-      vertexColors: true, roughness: 0.85, side: THREE.DoubleSide,
+      vertexColors: true,
+      roughness: 0.85,
+      side: THREE.DoubleSide,
     });
     this.textured = new THREE.MeshStandardMaterial({ roughness: 0.6, side: THREE.DoubleSide });
     this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), [this.look.outer, this.look.wall]);
     this.ghost = new THREE.Mesh(
       new THREE.BufferGeometry(),
       new THREE.MeshBasicMaterial({
-        color: 0x7d8a93, wireframe: true, transparent: true, opacity: 0.22, depthWrite: false,
+        color: 0x7d8a93,
+        wireframe: true,
+        transparent: true,
+        opacity: 0.22,
+        depthWrite: false,
       }),
     );
     this.wallColour = this.look.wall.color.clone();
@@ -54,7 +60,10 @@ export class SurfaceView {
     geometry.setAttribute('normal', dynamic(count));
     geometry.setAttribute('color', dynamic(count));
     if (topology.texture) {
-      geometry.setAttribute('uv', new THREE.BufferAttribute(this.perVertex(topology.texture, 2), 2));
+      geometry.setAttribute(
+        'uv',
+        new THREE.BufferAttribute(this.perVertex(topology.texture, 2), 2),
+      );
     }
     geometry.addGroup(0, 3 * drawn.outerTriangles, 0);
     geometry.addGroup(3 * drawn.outerTriangles, drawn.index.length - 3 * drawn.outerTriangles, 1);
@@ -140,6 +149,18 @@ export class SurfaceView {
   // Walls in a colour of their own, or as the rest of the surface.
   showWalls(on: boolean): void {
     this.look.wall.color.copy(on ? this.wallColour : this.look.outer.color);
+  }
+
+  // Lets see what is inside.
+  setSeeThrough(on: boolean): void {
+    for (const material of this.materials) {
+      if (material === this.look.outer && this.look.isCornea) continue;
+      if (material.transparent === on) continue;
+      material.transparent = on;
+      material.opacity = on ? 0.22 : 1;
+      material.depthWrite = !on;
+      material.needsUpdate = true;
+    }
   }
 
   setClipping(planes: THREE.Plane[]): void {

@@ -29,7 +29,13 @@ export function makeToolShape(tool: ToolInfo, size: number, use: ToolMaterials):
   return group;
 }
 
-function rod(from: number, to: number, low: number, high: number, material: THREE.Material): THREE.Mesh {
+function rod(
+  from: number,
+  to: number,
+  low: number,
+  high: number,
+  material: THREE.Material,
+): THREE.Mesh {
   const geometry = new THREE.CylinderGeometry(high, low, to - from, 20);
   geometry.rotateX(Math.PI / 2);
   geometry.translate(0, 0, (from + to) / 2);
@@ -58,14 +64,21 @@ function addForceps(group: THREE.Group, reach: number, size: number, use: ToolMa
 
 // Open or closed jaws.
 export function setJaws(shape: THREE.Group, closed: boolean): void {
-  for (const [name, side] of [['jaw-left', -1], ['jaw-right', 1]] as const) {
+  for (const [name, side] of [
+    ['jaw-left', -1],
+    ['jaw-right', 1],
+  ] as const) {
     const jaw = shape.getObjectByName(name);
     if (jaw) jaw.rotation.y = side * (closed ? 0.012 : 0.06);
   }
 }
 
 function addBlade(
-  group: THREE.Group, tool: ToolInfo, reach: number, size: number, use: ToolMaterials,
+  group: THREE.Group,
+  tool: ToolInfo,
+  reach: number,
+  size: number,
+  use: ToolMaterials,
 ): void {
   // the edge in the plane y = 0, closed along the back; a mere line gets a back to be seen
   const outline = tool.edge.map((p) => new THREE.Vector2(p[0], p[2]));
@@ -77,7 +90,8 @@ function addBlade(
   }
   const thick = 0.02 * reach;
   const plate = new THREE.ExtrudeGeometry(new THREE.Shape(outline), {
-    depth: thick, bevelEnabled: false,
+    depth: thick,
+    bevelEnabled: false,
   });
   // shape's (x, y) are the tool's (x, z)
   plate.rotateX(Math.PI / 2);

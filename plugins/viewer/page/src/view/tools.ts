@@ -16,16 +16,28 @@ export class ToolsView {
   readonly group = new THREE.Group();
   private readonly shown = new Map<string, ShownTool>();
   private readonly metal = new THREE.MeshStandardMaterial({
-    color: 0xcdd4d8, roughness: 0.3, metalness: 0.12, side: THREE.DoubleSide,
+    color: 0xcdd4d8,
+    roughness: 0.3,
+    metalness: 0.12,
+    side: THREE.DoubleSide,
   });
   private readonly grip = new THREE.MeshStandardMaterial({ color: 0x6b777f, roughness: 0.55 });
   private readonly ghostMaterial = new THREE.MeshBasicMaterial({
-    color: 0x2b9c93, transparent: true, opacity: 0.35, depthWrite: false, side: THREE.DoubleSide,
+    color: 0x2b9c93,
+    transparent: true,
+    opacity: 0.35,
+    depthWrite: false,
+    side: THREE.DoubleSide,
   });
   private readonly arrowMaterial = new THREE.MeshBasicMaterial({ color: 0xf0a020 });
   private readonly dots = new THREE.Points(
     new THREE.BufferGeometry(),
-    new THREE.PointsMaterial({ color: 0xf0a020, size: 5, sizeAttenuation: false, depthTest: false }),
+    new THREE.PointsMaterial({
+      color: 0xf0a020,
+      size: 5,
+      sizeAttenuation: false,
+      depthTest: false,
+    }),
   );
   private ghosts = new Map<string, THREE.Group>();
   private ghost: THREE.Group | null = null;
@@ -50,7 +62,10 @@ export class ToolsView {
     for (const info of scene.tools) {
       const shape = makeToolShape(info, size, { metal: this.metal, grip: this.grip });
       const arrow = new Arrow(this.arrowMaterial, 0.008 * size);
-      const ghost = makeToolShape(info, size, { metal: this.ghostMaterial, grip: this.ghostMaterial });
+      const ghost = makeToolShape(info, size, {
+        metal: this.ghostMaterial,
+        grip: this.ghostMaterial,
+      });
       shape.visible = ghost.visible = false;
       this.shown.set(info.path, { info, shape, arrow });
       this.ghosts.set(info.path, ghost);

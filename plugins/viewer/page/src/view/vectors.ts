@@ -8,7 +8,7 @@ const mostArrows = 1200;
 
 // Arrows at some points of a body: a shaft and two strokes for the head.
 export class VectorsView {
-  readonly lines: THREE.LineSegments;
+  readonly lines: THREE.LineSegments<THREE.BufferGeometry, THREE.LineBasicMaterial>;
 
   constructor() {
     this.lines = new THREE.LineSegments(
@@ -17,6 +17,10 @@ export class VectorsView {
     );
     this.lines.frustumCulled = false;
     this.lines.visible = false;
+  }
+
+  setClipping(planes: THREE.Plane[]): void {
+    this.lines.material.clippingPlanes = planes;
   }
 
   // The longest arrow is `longest` metres, or as long as what it shows where `trueLength`.
@@ -38,11 +42,19 @@ function vectorsOf(body: Body, choice: VectorChoice): Float32Array | null {
   if (choice === 'velocity') return body.velocity;
   const rest = body.topology?.rest;
   if (!rest || !body.position || rest.length !== body.position.length) return null;
-  return body.position.map((x, i) => x - rest[i]!);
+  const { positionStep } = body;
+  return body.position.map((x, i) => {
+    const way = x - rest[i]!;
+    return Math.abs(way) > positionStep ? way : 0;
+  });
 }
 
 function addArrows(
-  position: Float32Array, vectors: Float32Array, longest: number, trueLength: boolean, out: number[],
+  position: Float32Array,
+  vectors: Float32Array,
+  longest: number,
+  trueLength: boolean,
+  out: number[],
 ): void {
   const count = position.length / 3;
   const stride = Math.max(1, Math.ceil(count / mostArrows));

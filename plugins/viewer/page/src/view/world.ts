@@ -2,6 +2,8 @@
 import * as THREE from 'three';
 import { CameraControl } from './camera';
 
+const softwarePause = 90; // ms between two pictures
+
 // Canvas, lights and camera. It is drawn only when something asks for it, at most once a refresh of
 // the screen.
 export class World {
@@ -13,12 +15,15 @@ export class World {
   readonly beforeDrawing: (() => void)[] = [];
   readonly afterDrawing: ((milliseconds: number) => void)[] = [];
   private asked = false;
+  private drawnAt = -Infinity;
+  private readonly shortestPause: number;
   private readonly sun = new THREE.DirectionalLight(0xffffff, 2.1);
   private readonly fillLight = new THREE.DirectionalLight(0xdfe8ff, 0.7);
 
   constructor(container: HTMLElement) {
     this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: false });
     this.renderer.localClippingEnabled = true;
+    this.shortestPause = this.pauseOfRenderer();
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute('aria-label', 'The scene');
@@ -50,14 +55,30 @@ export class World {
   draw(): void {
     if (this.asked) return;
     this.asked = true;
+    const wait = this.shortestPause - (performance.now() - this.drawnAt);
+    if (wait > 1) window.setTimeout(() => this.drawAtRefresh(), wait);
+    else this.drawAtRefresh();
+  }
+
+  private drawAtRefresh(): void {
     requestAnimationFrame(() => {
       this.asked = false;
       this.drawNow();
     });
   }
 
+  // A machine that draws without graphics hardware does so on the processors that simulate: fewer
+  // pictures leave them more time.
+  private pauseOfRenderer(): number {
+    const gl = this.renderer.getContext();
+    const details = gl.getExtension('WEBGL_debug_renderer_info');
+    const name = String(gl.getParameter(details ? details.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+    return /swiftshader|llvmpipe|software/i.test(name) ? softwarePause : 0;
+  }
+
   drawNow(): void {
     const begin = performance.now();
+    this.drawnAt = begin;
     for (const call of this.beforeDrawing) call();
     this.renderer.render(this.scene, this.camera.object);
     for (const call of this.afterDrawing) call(performance.now() - begin);
