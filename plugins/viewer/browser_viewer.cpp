@@ -209,6 +209,7 @@ std::optional<ViewerRequest> BrowserViewer::handle(viewer::Incoming& incoming) {
     case Type::speed:
       return as(Kind::speed);
     case Type::set:
+      if (ticket > 0) sets_[ticket] = request.path;
       return as(Kind::set);
     case Type::replace:
       return as(Kind::replace);
@@ -290,12 +291,27 @@ std::string BrowserViewer::equip(const PageMessage& message, ViewerRequest& requ
 
 void BrowserViewer::answer(std::uint64_t ticket, bool done, const std::string& text) {
   if (!server_ || ticket == 0) return;
+  if (const auto set = sets_.extract(ticket); set && done) tellAll(set.mapped());
   const auto save = saves_.find(ticket);
   if (save == saves_.end()) return server_->answer(ticket, {{"done", done}, {"text", text}});
   Json answer{{"done", done}, {"text", done ? "" : text}};
   if (done) answer["files"] = filesOf(text, save->second);
   saves_.erase(save);
   server_->answer(ticket, std::move(answer));
+}
+
+// The page that has set an attribute knows; the others are told.
+void BrowserViewer::tellAll(const std::string& path) {
+  const PathParts parts = splitPath(path);
+  std::string problem, hint;
+  const PathTarget target = resolvePath(scene_->root(), nullptr, parts.object, problem, hint);
+  if (!target) return;
+  const AttributeOwner& owner =
+      target.component ? static_cast<const AttributeOwner&>(*target.component) : *target.node;
+  if (const AttributeBase* attribute = owner.attribute(parts.attribute)) {
+    server_->sendToAll(
+        viewer::dumped({{"type", "attributes"}, {"values", {{path, attribute->print()}}}}));
+  }
 }
 
 Json BrowserViewer::filesOf(const std::string& sceneText, bool recording) {

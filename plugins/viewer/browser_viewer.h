@@ -61,6 +61,7 @@ class BrowserViewer final : public Viewer {
   [[nodiscard]] std::string move(const viewer::PageMessage& message);
   [[nodiscard]] std::string takeInHand(const std::string& tool, ViewerRequest& request);
   [[nodiscard]] std::string equip(const viewer::PageMessage& message, ViewerRequest& request);
+  void tellAll(const std::string& path);
   [[nodiscard]] nlohmann::json filesOf(const std::string& sceneText, bool recording);
 
   std::unique_ptr<viewer::Server> server_;
@@ -80,6 +81,7 @@ class BrowserViewer final : public Viewer {
   std::uint64_t statusStep_ = 0;
   std::string statusMark_;                      // what the last status told, but for times
   std::map<std::string, std::string> outputs_;  // that the pages know
+  std::map<std::uint64_t, std::string> sets_;   // tickets that set an attribute: its path
   std::map<std::uint64_t, bool> saves_;         // tickets that wait for the scene's text: recording
 };
 

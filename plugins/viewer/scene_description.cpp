@@ -122,15 +122,16 @@ std::string excerptOf(const Diagnostic& diagnostic) {
 
 }  // namespace
 
-HapticDevice* deviceOf(Scene& scene, const Tool& tool) {
-  const auto deviceAmong = [](const Component& component) -> HapticDevice* {
-    for (const LinkBase* link : component.links()) {
-      for (Component* target : link->components()) {
-        if (auto* device = dynamic_cast<HapticDevice*>(target)) return device;
-      }
+HapticDevice* deviceAmong(const Component& component) {
+  for (const LinkBase* link : component.links()) {
+    for (Component* target : link->components()) {
+      if (auto* device = dynamic_cast<HapticDevice*>(target)) return device;
     }
-    return nullptr;
-  };
+  }
+  return nullptr;
+}
+
+HapticDevice* deviceOf(Scene& scene, const Tool& tool) {
   if (HapticDevice* device = deviceAmong(tool)) return device;
   HapticDevice* found = nullptr;
   forEachComponent(scene.root(), [&](const Component& component) {

@@ -17,6 +17,8 @@ namespace stroma::viewer {
 [[nodiscard]] nlohmann::json describe(const Diagnostics& diagnostics, bool broken);
 // Components that may take the place of this one: those that play the same role.
 [[nodiscard]] std::vector<std::string> alternativesTo(const Component& component);
+// The device that the component links to; null where there is none.
+[[nodiscard]] HapticDevice* deviceAmong(const Component& component);
 // What moves the tool: the device that it or its controller links to; null if nothing does.
 [[nodiscard]] HapticDevice* deviceOf(Scene& scene, const Tool& tool);
 

@@ -3,6 +3,7 @@
 
 #include "core/interfaces/observer.h"
 #include "core/traverse.h"
+#include "plugins/viewer/scene_description.h"
 
 namespace stroma::viewer {
 
@@ -13,7 +14,7 @@ std::string dumped(const Json& json) {
 }
 
 Json describe(const SessionState& session, Scene& scene) {
-  Json values = Json::object(), limiters = Json::object();
+  Json values = Json::object(), limiters = Json::object(), haptics = Json::object();
   forEachComponent(scene.root(), [&](const Component& component) {
     for (const Limiter* limiter : component.limiters()) {
       if (limiter->count() == 0) continue;
@@ -21,7 +22,9 @@ Json describe(const SessionState& session, Scene& scene) {
     }
     const auto* observer = dynamic_cast<const Observer*>(&component);
     if (!observer) return;
-    for (const auto& [name, value] : observer->lastValues()) values[name] = value;
+    Json own = Json::object();
+    for (const auto& [name, value] : observer->lastValues()) own[name] = values[name] = value;
+    if (deviceAmong(component)) haptics[component.path()] = std::move(own);  // a hand's controller
   });
   return {{"type", "status"},
           {"playing", session.playing},
@@ -33,6 +36,7 @@ Json describe(const SessionState& session, Scene& scene) {
           {"kept", session.kept},
           {"stopped", session.stopped},
           {"values", std::move(values)},
+          {"haptics", std::move(haptics)},
           {"limiters", std::move(limiters)}};
 }
 

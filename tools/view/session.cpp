@@ -247,6 +247,10 @@ std::string Session::setValue(const ViewerRequest& request) {
   }
   if (auto refused = scene_->setAttribute(request.path, request.text)) return *refused;
   changes_.add({SceneChange::Kind::set, request.path, request.text});
+  if (failed_) {  // what was refused before is not asked for any more
+    failed_.reset();
+    viewer_.report(scene_->diagnostics());
+  }
   return "";
 }
 
