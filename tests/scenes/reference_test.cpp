@@ -51,6 +51,7 @@ TEST(Reference, examplesShowTheComponent) {
     bool shown = false;
     std::error_code ignored;
     for (const auto& file : fs::directory_iterator((root / entry.example).parent_path(), ignored)) {
+      if (!file.is_regular_file()) continue;
       std::ifstream stream(file.path());
       const std::string text{std::istreambuf_iterator<char>(stream), {}};
       shown = shown || text.find("<" + name) != std::string::npos;
