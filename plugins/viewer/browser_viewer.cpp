@@ -71,7 +71,8 @@ void BrowserViewer::start() {
   if (const auto problem = server_->open()) {
     const AttributeBase& wrong =
         problem->ofAddress ? static_cast<const AttributeBase&>(ipAddress) : port;
-    error(wrong, "viewer-listen", problem->text, "--port 0 takes any port that is free");
+    error(wrong, "viewer-listen", problem->text,
+          problem->ofAddress ? "" : "--port 0 takes any port that is free");
     server_.reset();
   }
 }

@@ -78,6 +78,12 @@ wait $pid
 holds "an interrupt ends with 130" test $? -eq 130
 holds "  and a summary" grep -q interrupted out.txt
 
+expect 2 "view of no scene" "$stroma" view nowhere.xml --port 0
+expect 4 "view at no address" "$stroma" view fall.xml --address nowhere
+expect 1 "view at no port" "$stroma" view fall.xml --port 99999
+expect 1 "picture of no time" "$stroma" render fall.xml --out fall.png --at -1
+expect 4 "picture without a browser" "$stroma" render fall.xml --out fall.png --browser /nowhere
+
 expect 0 "components" "$stroma" components
 expect 0 "one component" "$stroma" components MechanicalObject
 holds "  shows units" grep -q "velocity  (list of 3 numbers each, m/s" out.txt
