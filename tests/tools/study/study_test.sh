@@ -139,6 +139,9 @@ for (( i = 0; i < 200 && ${#child} == 0; ++i )); do
   sleep 0.02
   child=$(cat /proc/$parent/task/$parent/children 2> /dev/null)
 done
+# one that has only just been started may not be the program yet
+sleep 0.1
+child=$(cat /proc/$parent/task/$parent/children 2> /dev/null)
 kill -SEGV $child
 wait $parent
 holds "a crash: exit code 3" test $? = 3
