@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/material/von_mises.h"
+
 namespace stroma {
 
 double vonMisesNear(const StressField& field, const StateView& at,
                     std::span<const Index> particles) {
   double most = 0;
   for (const Index i : particles) {
-    const Mat3 sigma = field.stressAt(at, i);
-    const Mat3 deviator = sigma - sigma.trace() / 3 * Mat3::Identity();
-    most = std::max(most, std::sqrt(1.5) * deviator.norm());
+    most = std::max(most, vonMisesStress(field.stressAt(at, i)));
   }
   return most;
 }

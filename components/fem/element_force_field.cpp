@@ -5,6 +5,7 @@
 #include "components/material/hooke_corotated.h"
 #include "components/material/hooke_green.h"
 #include "components/material/stable_neo_hookean.h"
+#include "components/material/von_mises.h"
 #include "core/element_body.h"
 #include "core/schedule.h"
 #include "core/sorted_ids.h"
@@ -60,7 +61,7 @@ void ElementForceField<Element>::publishStress(const StepContext&) {
   parallelFor(mesh_->nodeCount(), [&](Index i) {
     const auto k = static_cast<std::size_t>(i);
     const NodeStress at = law_->stressAt(x, i);
-    stress[k] = std::sqrt(1.5) * (at.stress - at.stress.trace() / 3 * Mat3::Identity()).norm();
+    stress[k] = vonMisesStress(at.stress);
     ratio[k] = at.volumeRatio;
   });
   vonMises.set(std::move(stress));

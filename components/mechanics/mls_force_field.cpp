@@ -10,6 +10,7 @@
 #include "components/material/hooke_green.h"
 #include "components/material/stable_neo_hookean.h"
 #include "components/material/volume_penalty.h"
+#include "components/material/von_mises.h"
 #include "components/mechanics/mls_elasticity.h"
 #include "components/mechanics/second_order.h"
 #include "core/scene.h"
@@ -62,9 +63,7 @@ class MLSForceField::LawOf final : public Law {
     elasticity_.deformation(x, F_);
     parallelFor(static_cast<Index>(x.size()), [&](Index k) {
       const auto i = static_cast<std::size_t>(k);
-      const Mat3 sigma = elasticity_.cauchyStress(F_[i]);
-      const Mat3 deviator = sigma - sigma.trace() / 3 * Mat3::Identity();
-      vonMises[i] = std::sqrt(1.5) * deviator.norm();
+      vonMises[i] = vonMisesStress(elasticity_.cauchyStress(F_[i]));
       volumeRatio[i] = F_[i].determinant();
     });
   }
@@ -110,6 +109,15 @@ bool MLSForceField::readVolumes() {
   const auto bad = std::ranges::find_if(volumes_, [](double v) { return !(v > 0); });
   if (bad != volumes_.end()) {
     error("mls-volume", "particle " + std::to_string(bad - volumes_.begin()) + " has no volume");
+    return false;
+  }
+  // far below it surfaces would be sampled at points without number
+  const double side = cellSide();
+  if (spacing > 0.0 && spacing < 0.2 * side) {
+    error(spacing, "mls-spacing",
+          "is far below the side of the particles' volumes, " + ValueTraits<double>::print(side) +
+              " m",
+          "src=\"@sampler\" takes both from a ParticleSampler");
     return false;
   }
   return true;
@@ -362,12 +370,12 @@ std::shared_ptr<RidingPoints> MLSForceField::shapeOf(ConstVec3Span points,
   return riding;
 }
 
-double MLSForceField::particleSpacing() const {
+double MLSForceField::cellSide() const {
   double body = 0;
   for (const double v : volumes_) body += v;
-  const double side = std::cbrt(body / static_cast<double>(volumes_.size()));
-  // one far below what the volumes tell would only mean samples without number
-  return spacing > 0.0 ? std::max(*spacing, 0.2 * side) : side;
+  return std::cbrt(body / static_cast<double>(volumes_.size()));
 }
+
+double MLSForceField::particleSpacing() const { return spacing > 0.0 ? *spacing : cellSide(); }
 
 }  // namespace stroma

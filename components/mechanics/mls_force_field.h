@@ -251,6 +251,7 @@ class MLSForceField final : public ForceField, public StressField {
     std::optional<ProjectionReport> projection;  // of the last change
   };
 
+  [[nodiscard]] double cellSide() const;  // of a cube with the mean volume of the particles (m)
   [[nodiscard]] double particleSpacing() const;
   [[nodiscard]] bool build();
   [[nodiscard]] bool readVolumes();

@@ -13,5 +13,11 @@ TEST(BodyCuts, someKeepEveryLinkOfTheLiverRight) {
   EXPECT_EQ(cutBodies(liverToDivide(), 101, 4, {}).cuts, 4);
 }
 
+// Its tenth cut leaves rows whose neighbours hardly fill space: the rounding of what makes them
+// consistent would show in linear motions.
+TEST(BodyCuts, keepLinearMotionsExactWhereRowsAreNearlyFlat) {
+  EXPECT_EQ(cutBodies(corneaToDivide(), 10678, 10, {2, 400}).cuts, 10);
+}
+
 }  // namespace
 }  // namespace stroma::test
