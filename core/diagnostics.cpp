@@ -146,6 +146,8 @@ void writeJson(const Diagnostic& diagnostic, JsonWriter& json) {
     }
   }
   if (!diagnostic.hint.empty()) json.member("hint", diagnostic.hint);
+  const std::string lines = diagnostic.where ? excerpt(diagnostic.where) : "";
+  if (!lines.empty()) json.member("excerpt", lines);
   json.endObject();
 }
 

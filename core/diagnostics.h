@@ -46,7 +46,8 @@ class Diagnostics {
   // "2 errors, 0 warnings; nothing was started."
   [[nodiscard]] std::string text() const;
 
-  // One object: errors, warnings, omitted, and the list "diagnostics", in the order of text().
+  // One object: errors, warnings, omitted, and the list "diagnostics", in the order of text(), each
+  // with its place and the excerpt that text() shows.
   [[nodiscard]] std::string json() const;
 
  private:

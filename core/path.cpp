@@ -118,4 +118,21 @@ PathTarget resolvePath(Node& from, const Component* self, std::string_view path,
   return at;
 }
 
+AttributeTarget findAttribute(Node& root, std::string_view path, std::string& problem,
+                              std::string& hint) {
+  const PathParts parts = splitPath(path);
+  const PathTarget target = resolvePath(root, nullptr, parts.object, problem, hint);
+  if (!target) return {};
+  AttributeOwner& owner =
+      target.component ? static_cast<AttributeOwner&>(*target.component) : *target.node;
+  AttributeBase* attribute = owner.attribute(parts.attribute);
+  if (!attribute) {
+    problem = owner.describe() + " has no attribute " + stroma::quoted(parts.attribute);
+    std::vector<std::string> names;
+    for (const AttributeBase* a : owner.attributes()) names.emplace_back(a->name());
+    hint = didYouMean(parts.attribute, names);
+  }
+  return {target.component, attribute};
+}
+
 }  // namespace stroma

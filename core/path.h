@@ -34,4 +34,15 @@ struct PathParts {
 [[nodiscard]] PathTarget resolvePath(Node& node, const Component* self, std::string_view path,
                                      std::string& problem, std::string& hint);
 
+// An attribute of a component, or of a node (`component` is then null).
+struct AttributeTarget {
+  Component* component = nullptr;
+  AttributeBase* attribute = nullptr;
+  explicit operator bool() const { return attribute != nullptr; }
+};
+
+// Finds "/path/to/component.attribute" from the root; likewise.
+[[nodiscard]] AttributeTarget findAttribute(Node& root, std::string_view path, std::string& problem,
+                                            std::string& hint);
+
 }  // namespace stroma

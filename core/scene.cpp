@@ -350,20 +350,14 @@ std::uint64_t Scene::stateHash() const {
 }
 
 std::optional<std::string> Scene::setAttribute(const std::string& path, const std::string& value) {
-  const PathParts parts = splitPath(path);
   std::string problem, hint;
-  const PathTarget target = resolvePath(*root_, nullptr, parts.object, problem, hint);
-  if (!target) return problem;
-  AttributeOwner& owner =
-      target.component ? static_cast<AttributeOwner&>(*target.component) : *target.node;
-  AttributeBase* attribute = owner.attribute(parts.attribute);
-  if (!attribute)
-    return owner.describe() + " has no attribute '" + std::string(parts.attribute) + "'";
+  const auto [component, attribute] = findAttribute(*root_, path, problem, hint);
+  if (!attribute) return problem;
   if (!attribute->info().runtime) {
     return "'" + std::string(attribute->name()) + "' cannot be changed while the scene runs";
   }
   if (auto error = attribute->parse(value, UnitSystem{})) return error->message;
-  if (target.component) target.component->attributeChanged(*attribute);
+  if (component) component->attributeChanged(*attribute);
   for (const auto& system : systems_) system->integrator().systemChanged();
   return std::nullopt;
 }

@@ -140,7 +140,8 @@ TEST(Diagnostics, jsonHasPlacesForEditors) {
   EXPECT_EQ(diagnostics.json(),
             R"({"errors":1,"warnings":1,"omitted":0,"diagnostics":[)"
             R"({"severity":"error","id":"e-id","message":"bad \"two\"","file":"a.xml",)"
-            R"("line":2,"column":4,"endLine":2,"endColumn":7,"hint":"hint"},)"
+            R"("line":2,"column":4,"endLine":2,"endColumn":7,"hint":"hint",)"
+            R"("excerpt":"    2 | µ \"two\"\n      |    ^~~\n"},)"
             R"({"severity":"warning","id":"w","message":"no place"}]})");
 }
 
