@@ -10,6 +10,7 @@
 #include "core/rate_keeper.h"
 #include "core/traverse.h"
 #include "plugins/viewer/equipment.h"
+#include "plugins/viewer/json_text.h"
 #include "plugins/viewer/mouse_device.h"
 #include "plugins/viewer/scene_description.h"
 #include "plugins/viewer/status.h"
@@ -136,7 +137,7 @@ void BrowserViewer::sendStatus(const SessionState& session) {
   nextStatus_ = after(statusPeriod, 0);
   Json status = viewer::describe(session, *scene_);
   // a session that stands still has nothing new to tell
-  std::string mark = viewer::dumped(status);
+  std::string mark = session.playing ? "" : viewer::dumped(status);
   if (!session.playing && mark == statusMark_) return;
   statusMark_ = std::move(mark);
   const std::uint64_t steps = scene_->stepCount() - std::min(statusStep_, scene_->stepCount());
@@ -303,15 +304,10 @@ void BrowserViewer::answer(std::uint64_t ticket, bool done, const std::string& t
 
 // The page that has set an attribute knows; the others are told.
 void BrowserViewer::tellAll(const std::string& path) {
-  const PathParts parts = splitPath(path);
   std::string problem, hint;
-  const PathTarget target = resolvePath(scene_->root(), nullptr, parts.object, problem, hint);
-  if (!target) return;
-  const AttributeOwner& owner =
-      target.component ? static_cast<const AttributeOwner&>(*target.component) : *target.node;
-  if (const AttributeBase* attribute = owner.attribute(parts.attribute)) {
+  if (const auto target = findAttribute(scene_->root(), path, problem, hint)) {
     server_->sendToAll(
-        viewer::dumped({{"type", "attributes"}, {"values", {{path, attribute->print()}}}}));
+        viewer::dumped({{"type", "attributes"}, {"values", {{path, target.attribute->print()}}}}));
   }
 }
 

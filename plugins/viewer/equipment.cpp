@@ -38,12 +38,9 @@ double youngModulusOf(Scene& scene, const Body& surface) {
 
 Measure measure(Scene& scene, const Body& surface) {
   const ConstVec3Span points = surface.state->rest();
-  Vec3 low = points.front(), high = low;
-  for (const Vec3& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  Measure m{(high - low).norm(), 0, youngModulusOf(scene, surface), 1};
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : points) box.extend(p);
+  Measure m{box.diagonal().norm(), 0, youngModulusOf(scene, surface), 1};
   m.reach = 0.04 * m.size;
   // around some of the nodes
   const std::size_t stride = std::max<std::size_t>(1, points.size() / 20);

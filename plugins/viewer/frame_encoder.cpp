@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "plugins/viewer/json_text.h"
+
 namespace stroma::viewer {
 namespace {
 
@@ -54,7 +56,7 @@ class Payload {
   }
 
   [[nodiscard]] std::string message(std::uint32_t kind, const Json& header) const {
-    std::string text = header.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string text = dumped(header);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const std::array<std::uint32_t, 2> start{kind, static_cast<std::uint32_t>(text.size())};
     std::string all(sizeof(start) + text.size() + bytes_.size(), '\0');

@@ -22,6 +22,12 @@ void MouseDevice::configure() {
   }
 }
 
+bool MouseDevice::follow(const MouseTarget& target) {
+  const bool taken = path_.push(target);
+  if (!taken) ++dropped_;
+  return taken;
+}
+
 void MouseDevice::start() {
   realTime_ = scene().options().realTime;
   attributeChanged(maxSpeed);

@@ -50,7 +50,7 @@ class MouseDevice final : public HapticDevice {
                         {.unit = "N", .output = true}};
 
   // Another target behind those that are waiting; false when too many are. One thread calls this.
-  [[nodiscard]] bool follow(const MouseTarget& target) { return path_.push(target); }
+  [[nodiscard]] bool follow(const MouseTarget& target);
 
   void configure() override;
   void start() override;
@@ -87,6 +87,7 @@ class MouseDevice final : public HapticDevice {
   TripleBuffer<Vec3> felt_;
 
   bool realTime_ = false;
+  Limiter dropped_{this, "dropped", "Targets that came while too many waited, and were left out."};
   std::vector<Key> keys_;  // while moving every read, else the first and the last
 };
 

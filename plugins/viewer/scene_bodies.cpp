@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/material/von_mises.h"
 #include "components/mechanics/point_tree.h"
 #include "core/parallel.h"
 #include "core/traverse.h"
@@ -72,11 +73,6 @@ void copyPoints(ConstVec3Span from, std::vector<float>& to) {
   for (const Vec3& point : from) {
     for (int axis = 0; axis < 3; ++axis) *out++ = static_cast<float>(point[axis]);
   }
-}
-
-double vonMises(const Mat3& stress) {
-  const Mat3 deviator = stress - stress.trace() / 3 * Mat3::Identity();
-  return std::sqrt(1.5) * deviator.norm();
 }
 
 }  // namespace
@@ -168,16 +164,12 @@ void SceneBodies::findFields(Body& body) {
   }
 }
 
-std::pair<Vec3, Vec3> SceneBodies::bounds() const {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::max()), high = -low;
+Eigen::AlignedBox3d SceneBodies::bounds() const {
+  Eigen::AlignedBox3d box;
   for (const Body& body : bodies_) {
-    for (const Vec3& point : body.state->rest()) {
-      low = low.cwiseMin(point);
-      high = high.cwiseMax(point);
-    }
+    for (const Vec3& point : body.state->rest()) box.extend(point);
   }
-  if (low.x() > high.x()) low = high = Vec3::Zero();
-  return {low, high};
+  return box.isEmpty() ? Eigen::AlignedBox3d(Vec3::Zero()) : box;
 }
 
 std::vector<std::shared_ptr<const TopologyCopy>> SceneBodies::changedTopologies() {
@@ -274,7 +266,7 @@ std::vector<float> SceneBodies::evaluate(Body& body, const BodyField& field) {
   const StateView at = body.state->view(scene_.time());
   parallelFor(body.state->size(), [&](Index i) {
     values[static_cast<std::size_t>(i)] =
-        static_cast<float>(vonMises(body.stress->stressAt(at, i)));
+        static_cast<float>(vonMisesStress(body.stress->stressAt(at, i)));
   });
   return values;
 }

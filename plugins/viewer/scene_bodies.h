@@ -3,6 +3,7 @@
 // Everything here is called by the thread that makes the steps.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <map>
 #include <memory>
 #include <optional>
@@ -51,8 +52,8 @@ class SceneBodies {
 
   [[nodiscard]] const std::vector<Body>& bodies() const { return bodies_; }
   [[nodiscard]] const std::vector<Tool*>& tools() const { return tools_; }
-  // Lowest and highest corner of all points at rest.
-  [[nodiscard]] std::pair<Vec3, Vec3> bounds() const;
+  // Of all points at rest.
+  [[nodiscard]] Eigen::AlignedBox3d bounds() const;
   // Of bodies that are new or have changed since the last call.
   [[nodiscard]] std::vector<std::shared_ptr<const TopologyCopy>> changedTopologies();
   // Fills the frame, whose storage is used again. Fields are worked out where `withFields`;

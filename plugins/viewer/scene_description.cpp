@@ -108,18 +108,6 @@ Json describe(Scene& scene, const Tool& tool) {
           {"samples", points(tool.samplePoints())}};
 }
 
-// The excerpt with its caret, without the first line and the hints of the whole text.
-std::string excerptOf(const Diagnostic& diagnostic) {
-  std::string text = format(diagnostic), excerpt;
-  for (std::size_t begin = text.find('\n') + 1; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string line = text.substr(begin, end - begin);
-    if (!line.starts_with("      = ")) excerpt += line + "\n";
-    begin = end + 1;
-  }
-  return excerpt;
-}
-
 }  // namespace
 
 HapticDevice* deviceAmong(const Component& component) {
@@ -157,7 +145,8 @@ std::vector<std::string> alternativesTo(const Component& component) {
 
 Json describeScene(Scene& scene, const SceneBodies& bodies, std::uint64_t generation,
                    const std::vector<std::string>& changes) {
-  const auto [low, high] = bodies.bounds();
+  const Eigen::AlignedBox3d box = bodies.bounds();
+  const Vec3 &low = box.min(), &high = box.max();
   Json list = Json::array(), tools = Json::array();
   for (const Body& body : bodies.bodies()) list.push_back(describe(body));
   for (const Tool* tool : bodies.tools()) tools.push_back(describe(scene, *tool));
@@ -174,23 +163,8 @@ Json describeScene(Scene& scene, const SceneBodies& bodies, std::uint64_t genera
 }
 
 Json describe(const Diagnostics& diagnostics, bool broken) {
-  constexpr std::array<std::string_view, 3> severities = {"error", "warning", "note"};
-  Json items = Json::array();
-  for (const Diagnostic& diagnostic : diagnostics.all()) {
-    Json item{{"severity", severities[static_cast<std::size_t>(diagnostic.severity)]},
-              {"id", diagnostic.id},
-              {"message", diagnostic.message},
-              {"excerpt", excerptOf(diagnostic)},
-              {"hint", diagnostic.hint}};
-    if (diagnostic.where) {
-      const auto at = diagnostic.where.source->position(diagnostic.where.offset);
-      item["file"] = diagnostic.where.source->name();
-      item["line"] = at.line;
-      item["column"] = at.column;
-    }
-    items.push_back(std::move(item));
-  }
-  return {{"type", "diagnostics"}, {"items", std::move(items)}, {"broken", broken}};
+  const Json report = Json::parse(diagnostics.json());
+  return {{"type", "diagnostics"}, {"items", report.at("diagnostics")}, {"broken", broken}};
 }
 
 }  // namespace stroma::viewer

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "plugins/viewer/frame_encoder.h"
+#include "plugins/viewer/json_text.h"
 #include "plugins/viewer/watcher.h"
 
 namespace stroma::viewer {
@@ -58,9 +59,8 @@ std::string_view valueOf(std::string_view list, std::string_view name, char sepa
   return {};
 }
 
-std::string dump(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
+Bytes bytesOf(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
+Bytes bytesOf(const Json& json) { return bytesOf(dumped(json)); }
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
@@ -221,11 +221,11 @@ void Server::join(const std::shared_ptr<Watcher>& watcher) {
   joined_.emplace(watcher->id, watcher);
   watchers_ = static_cast<int>(joined_.size());
   if (steering_ == 0) steering_ = watcher->id;
-  watcher->send(std::make_shared<const std::string>(dump({{"type", "hello"},
-                                                          {"version", 1},
-                                                          {"program", "stroma"},
-                                                          {"client", watcher->id},
-                                                          {"steers", steering_ == watcher->id}})));
+  watcher->send(bytesOf(Json{{"type", "hello"},
+                             {"version", 1},
+                             {"program", "stroma"},
+                             {"client", watcher->id},
+                             {"steers", steering_ == watcher->id}}));
   if (scene_) watcher->send(scene_);
   for (const auto& [body, topology] : topologies_) watcher->send(topology);
   if (diagnostics_) watcher->send(diagnostics_);
@@ -249,10 +249,9 @@ void Server::steer(std::uint64_t watcher) {
 
 void Server::take(Watcher& from, PageMessage message) {
   using Type = PageMessage::Type;
-  const auto reply = [&](bool done, const char* text) {
-    if (message.n == 0) return;
-    const Json json{{"type", "answer"}, {"n", message.n}, {"done", done}, {"text", text}};
-    from.send(std::make_shared<const std::string>(dump(json)));
+  const auto reply = [&from, n = message.n](bool done, const char* text) {
+    if (n == 0) return;
+    from.send(bytesOf(Json{{"type", "answer"}, {"n", n}, {"done", done}, {"text", text}}));
   };
   switch (message.type) {
     case Type::steer:
@@ -271,14 +270,16 @@ void Server::take(Watcher& from, PageMessage message) {
       break;
   }
   if (message.steers() && from.id != steering_) return reply(false, "another window steers");
-  std::uint64_t ticket = 0;
-  if (message.n > 0) {
-    ticket = nextTicket_++;
-    tickets_[ticket] = {from.id, message.n};
-  }
   constexpr std::size_t mostIncoming = 10000;
+  Incoming incoming{std::move(message), 0};
+  const std::uint64_t n = incoming.message.n;
   const std::scoped_lock lock(mutex_);
-  if (incoming_.size() < mostIncoming) incoming_.push_back({std::move(message), ticket});
+  if (incoming_.size() >= mostIncoming) return reply(false, "too many requests wait");
+  if (n > 0) {
+    incoming.ticket = nextTicket_++;
+    tickets_[incoming.ticket] = {from.id, n};
+  }
+  incoming_.push_back(std::move(incoming));
 }
 
 void Server::updateLooks() {
@@ -320,7 +321,7 @@ void Server::spread(const Bytes& text) {
 }
 
 void Server::sendScene(std::string json) {
-  asio::post(context_, [this, text = std::make_shared<const std::string>(std::move(json))] {
+  asio::post(context_, [this, text = bytesOf(std::move(json))] {
     scene_ = text;
     frame_.reset();
     topologies_.clear();
@@ -333,7 +334,7 @@ void Server::sendScene(std::string json) {
 
 void Server::sendTopology(std::shared_ptr<const TopologyCopy> topology) {
   asio::post(context_, [this, topology = std::move(topology)] {
-    const auto bytes = std::make_shared<const std::string>(encode(*topology));
+    const auto bytes = bytesOf(encode(*topology));
     topologies_[topology->body] = bytes;
     spread(bytes);
     // a frame that is newer than its topology has come before it, and been put aside
@@ -344,15 +345,14 @@ void Server::sendTopology(std::shared_ptr<const TopologyCopy> topology) {
 }
 
 void Server::sendDiagnostics(std::string json) {
-  asio::post(context_, [this, text = std::make_shared<const std::string>(std::move(json))] {
+  asio::post(context_, [this, text = bytesOf(std::move(json))] {
     diagnostics_ = text;
     spread(text);
   });
 }
 
 void Server::sendToAll(std::string json) {
-  asio::post(context_,
-             [this, text = std::make_shared<const std::string>(std::move(json))] { spread(text); });
+  asio::post(context_, [this, text = bytesOf(std::move(json))] { spread(text); });
 }
 
 void Server::sendStatusTo(Watcher& watcher) {
@@ -360,7 +360,7 @@ void Server::sendStatusTo(Watcher& watcher) {
   Json own = status_;
   own["steers"] = watcher.id == steering_;
   own["watchers"] = joined_.size();
-  watcher.send(std::make_shared<const std::string>(dump(own)));
+  watcher.send(bytesOf(own));
 }
 
 void Server::sendStatus(Json status) {
@@ -381,7 +381,7 @@ void Server::answer(std::uint64_t ticket, Json answer) {
     if (to == joined_.end()) return;
     answer["type"] = "answer";
     answer["n"] = n;
-    to->second->send(std::make_shared<const std::string>(dump(answer)));
+    to->second->send(bytesOf(answer));
   });
 }
 
@@ -401,7 +401,7 @@ void Server::encodeFrame() {
     std::swap(pending_, encoding_);
     hasPending_ = false;
   }
-  frame_ = std::make_shared<const std::string>(encode(encoding_));
+  frame_ = bytesOf(encode(encoding_));
   for (const auto& [id, watcher] : joined_) watcher->offer(frame_);
 }
 

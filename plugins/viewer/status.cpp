@@ -9,10 +9,6 @@ namespace stroma::viewer {
 
 using Json = nlohmann::json;
 
-std::string dumped(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 Json describe(const SessionState& session, Scene& scene) {
   Json values = Json::object(), limiters = Json::object(), haptics = Json::object();
   forEachComponent(scene.root(), [&](const Component& component) {

@@ -9,7 +9,6 @@
 
 namespace stroma::viewer {
 
-[[nodiscard]] std::string dumped(const nlohmann::json& json);
 // Clock, session, what observers saw last, limiters that acted.
 [[nodiscard]] nlohmann::json describe(const SessionState& session, Scene& scene);
 // Means a step over so many steps; `totals` (ms) are those of the call before.

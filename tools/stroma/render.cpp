@@ -14,6 +14,7 @@
 #include "core/parallel.h"
 #include "tools/stroma/command.h"
 #include "tools/stroma/interrupt.h"
+#include "tools/stroma/progress_bar.h"
 #include "tools/stroma/viewer_host.h"
 #include "tools/view/session.h"
 
@@ -140,7 +141,14 @@ int render(const Options& options) {
   std::cerr << session.diagnostics().text();
   if (!good) return sceneInvalid;
   listenForInterrupts();
-  if (!session.advanceTo(time)) return failed("diverged: " + session.state().stopped, diverged);
+  ProgressBar bar(0, static_cast<std::uint64_t>(std::ceil(time / session.scene().dt())), time);
+  const bool reached = session.advanceTo(time, [&](const Scene& scene) {
+    bar.show(scene.stepCount(), scene.time());
+    return interruptSignal() == 0;
+  });
+  bar.clear();
+  if (interruptSignal() != 0) return 128 + interruptSignal();
+  if (!reached) return failed("diverged: " + session.state().stopped, diverged);
 
   Browser window(browser, pageAddress(options, *viewer), options.width, options.height);
   const auto last = Clock::now() + std::chrono::seconds(options.patience);

@@ -6,12 +6,25 @@
 #include "core/xml_text.h"
 
 namespace stroma::study {
-namespace {
 
 std::string nameOf(const SceneElement& element) {
   const SceneAttribute* name = element.find("name");
   return name ? name->value : element.tag;
 }
+
+SceneElement* elementAt(SceneElement& root, std::string_view path) {
+  SceneElement* at = &root;
+  while (at && path.size() > 1) {
+    path.remove_prefix(1);
+    const std::string_view step = path.substr(0, path.find('/'));
+    const auto child = std::ranges::find(at->children, step, nameOf);
+    at = child == at->children.end() ? nullptr : &*child;
+    path.remove_prefix(step.size());
+  }
+  return at;
+}
+
+namespace {
 
 struct Place {
   std::vector<SceneElement>* siblings = nullptr;  // null for the root

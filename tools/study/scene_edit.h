@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/study/study.h"
@@ -14,6 +15,11 @@ namespace stroma::study {
 // left to the scene's overrides. Elements are found by path ("/beam/elasticity"); one without a
 // name goes by its tag. Problems are reported at the edit.
 void edit(SceneElement& root, const std::vector<Edit>& edits, Diagnostics& diagnostics);
+
+// The name by which paths find an element: one without a name goes by its tag.
+[[nodiscard]] std::string nameOf(const SceneElement& element);
+// The element that a path ("/beam/elasticity") names; null where there is none.
+[[nodiscard]] SceneElement* elementAt(SceneElement& root, std::string_view path);
 
 // The elements as XML text.
 [[nodiscard]] std::string sceneText(const SceneElement& root);

@@ -23,24 +23,6 @@ std::vector<SceneElement> elementsOf(const std::string& text, Diagnostics& diagn
   return all ? std::move(all->children) : std::vector<SceneElement>();
 }
 
-std::string nameOf(const SceneElement& element) {
-  const SceneAttribute* name = element.find("name");
-  return name ? name->value : element.tag;
-}
-
-SceneElement* find(SceneElement& root, std::string_view path) {
-  SceneElement* at = &root;
-  while (path.size() > 1) {
-    path.remove_prefix(1);
-    const std::string_view step = path.substr(0, path.find('/'));
-    const auto child = std::ranges::find(at->children, step, nameOf);
-    if (child == at->children.end()) return nullptr;
-    at = &*child;
-    path.remove_prefix(step.size());
-  }
-  return at;
-}
-
 void setAttribute(SceneElement& element, const std::string& name, const std::string& value) {
   const auto known = std::ranges::find(element.attributes, name, &SceneAttribute::name);
   if (known != element.attributes.end()) {
@@ -54,7 +36,7 @@ void setAttribute(SceneElement& element, const std::string& name, const std::str
 // the new type has, too.
 std::vector<SceneElement> retyped(SceneElement& root, const SceneChange& change, Scene& scene,
                                   Diagnostics& diagnostics) {
-  const SceneElement* old = find(root, change.path);
+  const SceneElement* old = study::elementAt(root, change.path);
   const ModuleManifest* module = scene.modules().moduleOf(change.text);
   std::string problem;
   if (!old) problem = "the scene has no " + stroma::quoted(change.path);
@@ -69,7 +51,7 @@ std::vector<SceneElement> retyped(SceneElement& root, const SceneChange& change,
   }
   const std::unique_ptr<Component> sample = scene.registry().create(*entry);
   SceneElement element = *old;
-  setAttribute(element, "name", nameOf(*old));
+  setAttribute(element, "name", study::nameOf(*old));
   element.tag = change.text;
   std::erase_if(element.attributes, [&](const SceneAttribute& a) {
     return a.name != "name" && a.name != "template" && !sample->attribute(a.name) &&
@@ -148,7 +130,7 @@ void SceneChanges::write(SceneElement& root, const std::vector<std::string>& ove
     const std::size_t equals = assignment.find('=');
     const std::string path = assignment.substr(0, equals);
     const PathParts parts = splitPath(path);
-    SceneElement* element = find(root, parts.object);
+    SceneElement* element = study::elementAt(root, parts.object);
     if (element)
       setAttribute(*element, std::string(parts.attribute), assignment.substr(equals + 1));
   }

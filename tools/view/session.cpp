@@ -122,9 +122,12 @@ void Session::run(bool playing, const std::function<bool()>& ends) {
   }
 }
 
-bool Session::advanceTo(double time) {
-  while (scene_->time() + 0.5 * scene_->dt() < time && state_.stopped.empty()) makeStep();
-  return state_.stopped.empty();
+bool Session::advanceTo(double time, const std::function<bool(const Scene&)>& goesOn) {
+  while (scene_->time() + 0.5 * scene_->dt() < time) {
+    makeStep();
+    if (!state_.stopped.empty() || !goesOn(*scene_)) return false;
+  }
+  return true;
 }
 
 void Session::makeStep() {
@@ -235,13 +238,9 @@ std::string Session::undo() {
 }
 
 std::string Session::setValue(const ViewerRequest& request) {
-  const PathParts parts = splitPath(request.path);
   std::string problem, hint;
-  const PathTarget target = resolvePath(scene_->root(), nullptr, parts.object, problem, hint);
-  if (!target) return problem;
-  const AttributeOwner& owner =
-      target.component ? static_cast<const AttributeOwner&>(*target.component) : *target.node;
-  const AttributeBase* attribute = owner.attribute(parts.attribute);
+  const AttributeBase* attribute =
+      findAttribute(scene_->root(), request.path, problem, hint).attribute;
   if (attribute && !attribute->info().runtime) {
     return change({SceneChange::Kind::set, request.path, request.text});
   }

@@ -25,8 +25,11 @@ class Session {
   [[nodiscard]] bool open();
   // Plays and serves requests until `ends` says so.
   void run(bool playing, const std::function<bool()>& ends);
-  // Makes steps as fast as they go to this time (s); false when that could not be reached.
-  [[nodiscard]] bool advanceTo(double time);
+  // Makes steps as fast as they go to this time (s), as long as `goesOn`, which is asked after
+  // each; false when the time could not be reached.
+  [[nodiscard]] bool advanceTo(
+      double time,
+      const std::function<bool(const Scene&)>& goesOn = [](const Scene&) { return true; });
   // Serves what was asked for; picture() is the last picture that came.
   void serve();
   [[nodiscard]] const std::string& picture() const { return picture_; }
