@@ -228,7 +228,8 @@ Vec3 BVHCollisionModel::outwardAtNode(Index node) const {
   return outward(t, weights);
 }
 
-// The tree is not written: its answers do not depend on how it came about.
+// The tree is not written, but put round the positions again: its answers do not depend on how it
+// came about.
 void BVHCollisionModel::save(StateWriter& writer) const {
   writer.write("positions", ConstVec3Span(now_));
   writer.write("followStep", followStep_);
@@ -242,6 +243,8 @@ void BVHCollisionModel::restore(StateReader& reader) {
   if (!reader.read("positions", Vec3Span(now_)) || !reader.read("followStep", followStep_)) {
     start();
   }
+  before_ = now_;
+  tree_.refit(links_.triangles(), now_, now_);
 }
 
 }  // namespace stroma

@@ -55,6 +55,22 @@ TEST(CutCollision, treeAnswersLikeOneThatIsBuiltAnew) {
   }
 }
 
+// Before anything has followed again: a blade asks where it touches first.
+TEST(CutCollision, aRestoredTreeIsRoundTheRestoredPositions) {
+  const Loaded s = loadCollision(squareScene(collisionModel));
+  auto& model = s.find<BVHCollisionModel>();
+  std::mt19937 random(4);
+  model.follow(1);
+  const Snapshot start = s.scene->save();
+  for (Vec3& x : s.system().x()) x += Vec3(3, 0, 1);
+  s.system().updateMapped();
+  model.follow(2);
+  ASSERT_TRUE(s.scene->restore(start));
+  TriangleTree rebuilt;
+  rebuilt.build(model.triangles(), model.positions());
+  expectSameAnswers(model, rebuilt, random);
+}
+
 TEST(CutCollision, aBodyStaysClosedOnlyWhileTheSeamIs) {
   // a tetrahedron; its front side is split, and is then separated along the split without walls
   const std::string solid =
