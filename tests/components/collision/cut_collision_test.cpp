@@ -62,7 +62,7 @@ TEST(CutCollision, aRestoredTreeIsRoundTheRestoredPositions) {
   std::mt19937 random(4);
   model.follow(1);
   const Snapshot start = s.scene->save();
-  for (Vec3& x : s.system().x()) x += Vec3(3, 0, 1);
+  for (Vec3& x : s.system().x()) x += Vec3(30, 0, 10);
   s.system().updateMapped();
   model.follow(2);
   ASSERT_TRUE(s.scene->restore(start));
