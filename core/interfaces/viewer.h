@@ -37,7 +37,7 @@ struct ViewerRequest {
     reload,   // reads the file again; changes made by requests stay
     revert,   // reads the file again without the changes
     sceneText,  // answered with the scene as XML, the changes included
-    picture,    // a picture was made: text is the PNG file
+    picture,    // a picture was made: text is the PNG file; or it could not be: path says why
   };
   Kind kind = Kind::play;
   std::string path{}, text{};

@@ -41,6 +41,7 @@ class Members {
   explicit Members(const Json& json) : json_(json) {}
   [[nodiscard]] const std::string& problem() const { return problem_; }
 
+  [[nodiscard]] bool has(const char* name) const { return json_.contains(name); }
   std::string text(const char* name) {
     const auto at = json_.find(name);
     if (at != json_.end() && at->is_string()) return at->get<std::string>();
@@ -163,7 +164,11 @@ void readMembers(Members& members, PageMessage& m) {
       }
       break;
     case Type::picture:
-      m.text = members.text("png");
+      if (members.has("problem")) {
+        m.path = members.text("problem");
+      } else {
+        m.text = members.text("png");
+      }
       break;
     default:
       break;

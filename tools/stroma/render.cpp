@@ -27,7 +27,7 @@ struct Options {
   std::string scene, out, time = "0", camera, colour, theme = "light", browser;
   SceneFlags flags;
   int width = 1280, height = 800, patience = 120;
-  bool particles = false, panels = false, bare = false;
+  bool particles = false, bare = false;
 };
 
 // The first that there is; Debian's package chromium-headless-shell has the smallest.
@@ -114,7 +114,6 @@ std::string pageAddress(const Options& options, const Viewer& viewer) {
   if (!options.camera.empty()) address += "&camera=" + options.camera;
   if (!options.colour.empty()) address += "&colour=" + options.colour;
   if (options.particles) address += "&particles=1";
-  if (options.panels) address += "&panels=1";
   if (options.bare) address += "&context=0";
   return address;
 }
@@ -153,17 +152,19 @@ int render(const Options& options) {
   Browser window(browser, pageAddress(options, *viewer), options.width, options.height);
   const auto last = Clock::now() + std::chrono::seconds(options.patience);
   session.run(false, [&] {
-    return !session.picture().empty() || !window.runs() || Clock::now() > last ||
+    const view::Session::Picture& picture = session.picture();
+    return !picture.png.empty() || !picture.problem.empty() || !window.runs() || Clock::now() > last ||
            interruptSignal() != 0;
   });
   if (interruptSignal() != 0) return 128 + interruptSignal();
-  if (session.picture().empty()) {
+  if (!session.picture().problem.empty()) return failed(session.picture().problem, wrongUsage);
+  if (session.picture().png.empty()) {
     return failed("no picture came from '" + browser + "'" +
                       (window.runs() ? " within " + std::to_string(options.patience) + " s" : ""),
                   fileTrouble);
   }
   std::ofstream file(options.out, std::ios::binary);
-  file << session.picture();
+  file << session.picture().png;
   file.close();
   if (!file) return failed("cannot write '" + options.out + "'", fileTrouble);
   std::cout << options.out << ": " << options.width << " x " << options.height << " at "
@@ -180,8 +181,9 @@ void addRender(CLI::App& app, int& exitCode) {
   command->add_option("--out", options->out, "The picture, a PNG file")
       ->option_text("FILE")
       ->required();
-  command->add_option("--at", options->time, "Simulated time, such as 0.2 or \"200 ms\"")
-      ->capture_default_str()
+  command
+      ->add_option("--at", options->time,
+                   "Simulated time, such as 0.2 or \"200 ms\"; the start without it")
       ->option_text("T");
   command
       ->add_option("--camera", options->camera,
@@ -189,22 +191,23 @@ void addRender(CLI::App& app, int& exitCode) {
       ->option_text("x,y,z,tx,ty,tz[,angle]");
   command->add_option("--colour", options->colour, "Field to colour by, such as displacement")
       ->option_text("FIELD");
-  command->add_option("--width", options->width, "Pixels")
-      ->capture_default_str()
+  command->add_option("--width", options->width, "Its width; 1280 without it")
+      ->option_text("PIXELS")
       ->check(CLI::Range(16, 8192));
-  command->add_option("--height", options->height, "Pixels")
-      ->capture_default_str()
+  command->add_option("--height", options->height, "Its height; 800 without it")
+      ->option_text("PIXELS")
       ->check(CLI::Range(16, 8192));
-  command->add_option("--theme", options->theme, "light or dark")
-      ->capture_default_str()
+  command->add_option("--theme", options->theme, "light (without it) or dark")
+      ->option_text("NAME")
       ->check(CLI::IsMember({"light", "dark"}));
   command->add_flag("--particles", options->particles, "With the particles");
-  command->add_flag("--panels", options->panels, "With the panels of the page round it");
   command->add_flag("--bare", options->bare, "The bodies alone, without the eye behind a cornea");
   command->add_option("--browser", options->browser, "Chromium, where it is not found by itself")
       ->option_text("PROGRAM");
-  command->add_option("--patience", options->patience, "Seconds to wait for the picture")
-      ->capture_default_str()
+  command
+      ->add_option("--patience", options->patience,
+                   "Seconds to wait for the picture; 120 without it")
+      ->option_text("S")
       ->check(CLI::Range(1, 3600));
   options->flags.addTo(*command);
   command->footer(

@@ -52,14 +52,14 @@ void addView(CLI::App& app, int& exitCode) {
   CLI::App* command =
       app.add_subcommand("view", "Run a scene and see, touch and change it in a browser");
   command->add_option("SCENE", options->scene, "Scene file")->required();
-  command->add_option("--port", options->port, "TCP port of the page, 0 = any that is free")
-      ->capture_default_str()
+  command
+      ->add_option("--port", options->port,
+                   "TCP port of the page, 8090 without it; 0 = any that is free")
       ->option_text("P")
       ->check(CLI::Range(0, 65535));
   command
       ->add_option("--address", options->address,
-                   "IP address to listen at; other machines reach it only where you say so")
-      ->capture_default_str()
+                   "IP address to listen at; without it 127.0.0.1, which only this machine reaches")
       ->option_text("IP");
   addRepeated(*command, "--host", options->hosts,
               "Further name by which browsers call this machine; may be repeated")
@@ -67,13 +67,14 @@ void addView(CLI::App& app, int& exitCode) {
   command->add_flag("--paused", options->paused, "Wait for the play button");
   command->add_flag("--real-time", options->realTime,
                     "Haptic devices are served by threads of their own, by the wall clock");
-  command->add_option("--threads", options->threads, "Threads of the simulation")
+  command->add_option("--threads", options->threads, "Threads of the simulation; 1 without it")
       ->option_text("N")
       ->check(CLI::Range(1, 1024));
   command->add_option("--out", options->out, "Folder for what exporters write; nothing without it")
       ->option_text("DIR");
-  command->add_option("--viewer", options->viewer, "Another component that shows scenes")
-      ->capture_default_str()
+  command
+      ->add_option("--viewer", options->viewer,
+                   "Another component that shows scenes than BrowserViewer")
       ->option_text("TYPE");
   options->flags.addTo(*command);
   command->footer(

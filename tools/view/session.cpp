@@ -220,7 +220,7 @@ void Session::handle(const ViewerRequest& request) {
       text = sceneText();
       break;
     case Kind::picture:
-      picture_ = request.text;
+      picture_ = {request.text, request.path};
       break;
   }
   viewer_.answer(request.ticket, problem.empty(), problem.empty() ? text : problem);

@@ -30,9 +30,12 @@ class Session {
   [[nodiscard]] bool advanceTo(
       double time,
       const std::function<bool(const Scene&)>& goesOn = [](const Scene&) { return true; });
-  // Serves what was asked for; picture() is the last picture that came.
+  // Serves what was asked for; picture() is the last picture that came, or why there is none.
   void serve();
-  [[nodiscard]] const std::string& picture() const { return picture_; }
+  struct Picture {
+    std::string png, problem;
+  };
+  [[nodiscard]] const Picture& picture() const { return picture_; }
   // Those of the last scene that was read, taken or not.
   [[nodiscard]] const Diagnostics& diagnostics() const;
   [[nodiscard]] Scene& scene() { return *scene_; }
@@ -67,7 +70,7 @@ class Session {
   FileWatch watch_;
   SessionState state_;
   std::deque<Snapshot> kept_;
-  std::string picture_;
+  Picture picture_;
   std::uint64_t stepsToMake_ = 0;  // of a request, while paused
   Clock::time_point anchor_{}, nextKeep_{}, measured_{};
   double anchorTime_ = 0, measuredTime_ = 0;  // s, simulated

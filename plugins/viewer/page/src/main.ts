@@ -56,7 +56,7 @@ function start(options: Options): void {
   background();
   connect(app, area);
   askForWhatIsShown(app, options.picture === null);
-  if (!options.picture || options.picture.panels) {
+  if (!options.picture) {
     layOut(app, area, themes, rates);
     touch(app);
   } else {
@@ -75,6 +75,7 @@ function takeOptions(app: App, options: Options): void {
   if (options.colour !== null) app.settings.set('colour', options.colour);
   if (options.walls !== null) app.settings.set('walls', options.walls);
   if (options.particles !== null) app.settings.set('particles', options.particles);
+  if (options.context !== null) app.settings.set('context', options.context);
   const camera = options.camera;
   if (!camera) return;
   // placed after the first scene has set its own view
@@ -155,7 +156,7 @@ function touch(app: App): void {
 // The canvas fills its area, or has the size that a picture is to have.
 function fitToArea(app: App, area: HTMLElement, options: Options): void {
   const picture = options.picture;
-  if (picture && !picture.panels) {
+  if (picture) {
     app.world.resize(picture.width, picture.height, 1);
     return;
   }

@@ -7,8 +7,9 @@ export interface Options {
   colour: string | null;
   walls: boolean | null;
   particles: boolean | null;
+  context: boolean | null;
   camera: number[] | null;
-  picture: { width: number; height: number; panels: boolean } | null;
+  picture: { width: number; height: number } | null; // instead of the page with its panels
 }
 
 export function readOptions(search: string): Options {
@@ -27,9 +28,8 @@ export function readOptions(search: string): Options {
     colour: query.get('colour'),
     walls: flag('walls'),
     particles: flag('particles'),
+    context: flag('context'),
     camera: isCamera ? camera : null,
-    picture: flag('picture')
-      ? { width: size('width', 1280), height: size('height', 800), panels: flag('panels') === true }
-      : null,
+    picture: flag('picture') ? { width: size('width', 1280), height: size('height', 800) } : null,
   };
 }

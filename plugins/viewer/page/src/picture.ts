@@ -4,7 +4,7 @@ import { shownEnd, viridis } from './colours';
 import { legendUnit, unitOfField } from './panels/legend';
 import { formatNumber } from './quantity';
 import type { Options } from './options';
-import { isSent, readable } from './view/colouring';
+import { colourChoices, isSent, readable } from './view/colouring';
 
 // Whether all that is to be seen has come.
 export function isComplete(app: App): boolean {
@@ -22,13 +22,29 @@ export function isComplete(app: App): boolean {
   return true;
 }
 
+// What is wrong with the field that was asked for.
+function wrongColour(app: App): string | null {
+  const { scene, bodies } = app.model;
+  const { colour } = app.settings.values;
+  if (!scene || !colour) return null;
+  const hasTexture = [...bodies.values()].some((body) => body.topology?.texture);
+  const names = colourChoices(scene, hasTexture).map(({ name }) => name);
+  if (names.includes(colour)) return null;
+  return `the scene has no field '${colour}' to colour by; it has: ${names.filter(Boolean).join(', ')}`;
+}
+
 // Sends one picture of the canvas as soon as it is complete.
 export function sendPictureWhenComplete(app: App, picture: NonNullable<Options['picture']>): void {
   let sent = false;
   app.model.on('frame', () => {
-    if (sent || !isComplete(app)) return;
+    const problem = wrongColour(app);
+    if (sent || (!problem && !isComplete(app))) return;
     sent = true;
-    if (!picture.panels) app.world.resize(picture.width, picture.height, 1);
+    if (problem) {
+      app.connection.send({ type: 'picture', problem });
+      return;
+    }
+    app.world.resize(picture.width, picture.height, 1);
     app.world.drawNow();
     const png = withLegend(app).toDataURL('image/png');
     app.connection.send({ type: 'picture', png: png.slice(png.indexOf(',') + 1) });

@@ -84,61 +84,16 @@ test('aSlitKnifeLiesFlat', () => {
 });
 
 test('toolsAreKnownByTheirShape', () => {
-  const tool = { path: '/t', type: 'T', device: '', mouse: true, radius: 0, samples: [], edge: [] };
-  assert.equal(kindOf({ ...tool, radius: 1, type: 'ProbeTool' }), 'probe');
-  assert.equal(kindOf({ ...tool, radius: 1, type: 'GripTool' }), 'grip');
-  assert.equal(
-    kindOf({
-      ...tool,
-      edge: [
-        [0.1, 0, 1],
-        [0, 0, 0],
-      ],
-    }),
-    'blade',
-  );
-  assert.equal(
-    kindOf({
-      ...tool,
-      edge: [
-        [0, 0, 1],
-        [0, 0, 0],
-      ],
-    }),
-    'blade',
-  );
-  assert.equal(
-    kindOf({
-      ...tool,
-      edge: [
-        [0.5, 0, 1],
-        [0, 0, 0],
-        [-0.5, 0, 1],
-      ],
-    }),
-    'pushed',
-  );
-  assert.equal(
-    kindOf({
-      ...tool,
-      edge: [
-        [1, 0, 0],
-        [0, 1, 0],
-        [-1, 0, 0],
-        [0, -1, 0],
-        [1, 0, 0],
-      ],
-    }),
-    'punch',
-  );
-  assert.equal(
-    cuttingSide({
-      ...tool,
-      edge: [
-        [-0.1, 0, 1],
-        [0, 0, 0],
-      ],
-    }),
-    -1,
-  );
+  const tool = { path: '/t', type: 'T', device: '', mouse: true, radius: 0, samples: [] };
+  const withEdge = (...corners: [number, number][]) => ({
+    ...tool,
+    edge: corners.map(([x, z]): [number, number, number] => [x, 0, z]),
+  });
+  assert.equal(kindOf({ ...withEdge(), radius: 1, type: 'ProbeTool' }), 'probe');
+  assert.equal(kindOf({ ...withEdge(), radius: 1, type: 'GripTool' }), 'grip');
+  assert.equal(kindOf(withEdge([0.1, 1], [0, 0])), 'blade');
+  assert.equal(kindOf(withEdge([0, 1], [0, 0])), 'blade');
+  assert.equal(kindOf(withEdge([0.5, 1], [0, 0], [-0.5, 1])), 'pushed');
+  assert.equal(kindOf(withEdge([1, 0], [0, 1], [-1, 0], [0, -1], [1, 0])), 'punch');
+  assert.equal(cuttingSide(withEdge([-0.1, 1], [0, 0])), -1);
 });

@@ -5,7 +5,7 @@ import { formatQuantity } from '../quantity';
 import type { Axis, ViewValues } from '../settings';
 import { colourChoices, valuesOf } from '../view/colouring';
 import type { VectorChoice } from '../view/vectors';
-import { legend } from './legend';
+import { legend, unitOfField } from './legend';
 import type { PlotList } from './plots';
 
 // How the scene is looked at.
@@ -161,7 +161,7 @@ function particleSection(app: App): HTMLElement {
     facts.hidden = false;
     const colour = app.settings.values.colour;
     const value = colour ? valuesOf(body, colour)?.[particle] : undefined;
-    const unit = body.info.fields.find((field) => field.name === colour)?.unit ?? '';
+    const unit = unitOfField(app, colour);
     const [x, y, z] = [0, 1, 2].map((k) => (1e3 * body.position![3 * particle + k]!).toFixed(3));
     fill(
       facts,
